@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+# One library per folder of beaconless/, so that the linker knows the layers too.
+
+# What every target of this project is compiled with; never exported to users.
+add_library(beaconless_build_flags INTERFACE)
+# GCC 12 sees overlapping copies in std::string + const char* (its PR 105651): -Wno-restrict.
+target_compile_options(beaconless_build_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+                       $<$<BOOL:${BEACONLESS_PARANOID}>:-Werror>)
+if(BEACONLESS_SANITIZE)
+  target_compile_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE}
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE})
+endif()
+
+# beaconless_module(name [PUBLIC libs…] [PRIVATE libs…] [EXCLUDE files…])
+# The library of the folder beaconless/<name>: all its .cpp files.
+function(beaconless_module name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE;EXCLUDE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
+  foreach(file IN LISTS arg_EXCLUDE)
+    list(REMOVE_ITEM sources "${CMAKE_CURRENT_SOURCE_DIR}/${name}/${file}")
+  endforeach()
+  set(target beaconless_${name})
+  if(sources)
+    set(scope PUBLIC)
+    add_library(${target} STATIC ${sources})
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:beaconless_build_flags> ${arg_PRIVATE})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    set(scope INTERFACE)
+    add_library(${target} INTERFACE)
+  endif()
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} ${scope} ${arg_PUBLIC})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  add_library(beaconless::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY BEACONLESS_TARGETS ${target})
+endfunction()
