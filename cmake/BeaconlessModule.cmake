@@ -3,9 +3,11 @@
 
 # What every target of this project is compiled with; never exported to users.
 add_library(beaconless_build_flags INTERFACE)
-# GCC 12 sees overlapping copies in std::string + const char* (its PR 105651): -Wno-restrict.
+# GCC 12 sees overlapping copies in std::string + const char* (its PR 105651): -Wno-restrict. Designated
+# initialisers leave fields at their defaults on purpose: -Wno-missing-field-initializers.
 target_compile_options(beaconless_build_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wno-sign-conversion -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+                       -Wno-sign-conversion -Werror=return-type -Wno-missing-field-initializers
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                        $<$<BOOL:${BEACONLESS_PARANOID}>:-Werror>)
 if(BEACONLESS_SANITIZE)
   target_compile_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE}
