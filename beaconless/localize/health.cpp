@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/localize/health.hpp"
+
+#include <algorithm>
+
+namespace beaconless {
+
+void describe(Fields& fields, HealthConfig& config) {
+  fields("usual_share", config.usual_share, {0.0, 1.0}, "a fit below this share of the usual one is weak");
+  fields("weak_ratio", config.weak_ratio, {0.0, 1.0},
+         "a fit that explains less of the scan than this is weak");
+  fields("lost_ratio", config.lost_ratio, {0.0, 1.0},
+         "a fit that explains less of the scan than this is no fit");
+  fields("lost_after_scans", config.lost_after_scans, {1, 100000}, "so many weak fits in a row mean lost");
+  fields("forget", config.forget, {0.0, 1.0}, "how fast what is usual follows the scans");
+}
+
+bool Health::is_poor(double on_map_ratio) const {
+  return on_map_ratio < std::max(config_.weak_ratio, config_.usual_share * usual_ratio_);
+}
+
+Status Health::judge(double on_map_ratio) {
+  if (is_poor(on_map_ratio)) {
+    ++weak_in_a_row_;
+    // What was usual elsewhere must not keep a robot from being well here.
+    if (on_map_ratio >= config_.weak_ratio) usual_ratio_ += config_.forget * (on_map_ratio - usual_ratio_);
+    return lost() || on_map_ratio < config_.lost_ratio ? Status::lost : Status::degraded;
+  }
+  weak_in_a_row_ = 0;
+  const double follow = usual_ratio_ > 0.0 ? config_.forget : 1.0;
+  usual_ratio_ += follow * (on_map_ratio - usual_ratio_);
+  return Status::ok;
+}
+
+}  // namespace beaconless

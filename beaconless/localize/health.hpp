@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "beaconless/core/describe.hpp"
+#include "beaconless/pose_estimate.hpp"
+
+namespace beaconless {
+
+/// When a fit counts as good, weak or lost.
+struct HealthConfig {
+  double usual_share = 0.75;  ///< a fit that explains less than this share of what is usual here is weak
+  double weak_ratio = 0.35;   ///< a fit that explains less of the scan than this is weak in any case
+  double lost_ratio = 0.25;   ///< a fit that explains less than this is no fit
+  int lost_after_scans = 8;   ///< so many weak fits in a row, and the robot is lost
+  double forget = 0.05;       ///< how fast "usual" follows the scans
+};
+
+void describe(Fields& fields, HealthConfig& config);
+
+/// Judges each scan's fit by the share of its points that lie on the map, against what is usual in this
+/// place.
+///
+/// People and clutter lower the share for a while; a wrong pose lowers it sharply. What is usual is learnt
+/// from good fits only.
+class Health {
+ public:
+  explicit Health(const HealthConfig& config = {}) : config_(config) {}
+
+  /// True where a fit is too poor to be believed without trying other starts.
+  bool is_poor(double on_map_ratio) const;
+
+  /// Takes in the scan's final fit; gives ok, degraded or lost.
+  Status judge(double on_map_ratio);
+
+  bool lost() const { return weak_in_a_row_ >= config_.lost_after_scans; }
+
+ private:
+  HealthConfig config_;
+  double usual_ratio_ = 0.0;
+  int weak_in_a_row_ = 0;
+};
+
+}  // namespace beaconless

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/localize/icp_localizer.hpp"
+
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace beaconless {
+namespace {
+
+constexpr double kClearlyBetter =
+    0.05;  // of the on-map ratio, before another start is preferred to the prediction
+constexpr double kBigCorrection_m = 0.25;
+constexpr double kBigCorrection_rad = radians(8.0);
+constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
+
+/// Two independent opinions on the same pose, each with its covariance.
+Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  const Eigen::Matrix3d ridge = 1e-12 * Eigen::Matrix3d::Identity();
+  return ((a + ridge).inverse() + (b + ridge).inverse()).inverse();
+}
+
+Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
+
+}  // namespace
+
+template <SurfaceIndex Index>
+IcpLocalizer<Index>::IcpLocalizer(const LocalizerConfig& config, Index map)
+    : config_(config),
+      map_(std::move(map)),
+      laser_from_base_(config.base_from_laser.inverse()),
+      motion_(config.motion),
+      health_(config.health) {}
+
+template <SurfaceIndex Index>
+void IcpLocalizer<Index>::start_at(const Pose2& map_from_base) {
+  if (!map_from_base.is_finite()) return;
+  motion_.start_at(map_from_base);
+  health_ = Health(config_.health);
+  last_.map_from_base = map_from_base;
+  started_ = true;
+  first_scan_ = true;
+}
+
+template <SurfaceIndex Index>
+PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
+  const Scan* scan = std::get_if<Scan>(&event);
+  if (scan == nullptr || !started_) {
+    PoseEstimate estimate = last_;
+    estimate.stamp = stamp_of(event);
+    estimate.status = started_ ? Status::not_a_scan : Status::not_started;
+    estimate.reason = started_ ? "the event brought no scan" : "no start pose was given";
+    return estimate;
+  }
+  // 1. Where the robot should be by its motion so far.
+  const Prediction prediction = motion_.predict(scan->stamp());
+  const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
+  // 2. What the laser saw.
+  load(*scan);
+  // 3. Fit it to the map from there.
+  MatchResult match = match_icp(points_, map_, guess, config_.icp, scratch_);
+  // 4. Where that fit is hard to believe, fit from other starts too and take the best.
+  if (is_doubtful(match, prediction)) match = try_other_starts(match, guess);
+  first_scan_ = false;
+  // 5. Take the fit as the pose, or go on by the motion alone.
+  last_ = match.usable() ? accept(match, prediction, scan->stamp())
+                         : coast(prediction, scan->stamp(), "too few beams end near a wall of the map");
+  return last_;
+}
+
+template <SurfaceIndex Index>
+void IcpLocalizer<Index>::load(const Scan& scan) {
+  points_.clear();
+  for (std::size_t beam = 0; beam < scan.size(); ++beam)
+    if (scan.is_hit(beam)) points_.push_back(scan.point(beam));
+}
+
+template <SurfaceIndex Index>
+bool IcpLocalizer<Index>::is_doubtful(const MatchResult& match, const Prediction& prediction) const {
+  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
+  return first_scan_ || !match.usable() || health_.is_poor(match.on_map_ratio) ||
+         std::hypot(correction.x_m, correction.y_m) > kBigCorrection_m ||
+         std::abs(correction.theta_rad) > kBigCorrection_rad;
+}
+
+template <SurfaceIndex Index>
+MatchResult IcpLocalizer<Index>::try_other_starts(const MatchResult& first, const Pose2& map_from_laser) {
+  LocalSearchConfig window = config_.search;
+  if (health_.lost()) {
+    window.window_m *= kLostWindow;
+    window.step_m *= 1.5;
+    window.window_deg = 180.0;
+  }
+  MatchResult best = first;
+  for (const StartPose& start : search_around(points_, map_, map_from_laser, window)) {
+    const MatchResult other = match_icp(points_, map_, start.map_from_laser, config_.icp, scratch_);
+    if (!other.usable()) continue;
+    const double margin =
+        &best == &first || best.map_from_laser == first.map_from_laser ? kClearlyBetter : 0.0;
+    if (!best.usable() || other.on_map_ratio > best.on_map_ratio + margin) best = other;
+  }
+  return best;
+}
+
+template <SurfaceIndex Index>
+PoseEstimate IcpLocalizer<Index>::accept(const MatchResult& match, const Prediction& prediction,
+                                         Stamp stamp) {
+  PoseEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.map_from_base = match.map_from_laser * laser_from_base_;
+  estimate.covariance = moved_covariance(match.covariance, match.map_from_laser, laser_from_base_);
+  estimate.quality = match.on_map_ratio;
+  estimate.status = health_.judge(match.on_map_ratio);
+  estimate.reason = estimate.status == Status::ok         ? ""
+                    : estimate.status == Status::degraded ? "less of the scan lies on the map than is usual"
+                                                          : "the scan does not fit the map here";
+  if (match.rank < 3) {
+    estimate.covariance = fused(estimate.covariance, prediction.covariance);
+    if (estimate.status == Status::ok) {
+      estimate.status = Status::degraded;
+      estimate.reason = "the walls in view leave a direction open, which is held at the prediction";
+    }
+  }
+  estimate.covariance = symmetric(estimate.covariance);
+  if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
+    return coast(prediction, stamp, "the fit gave no finite pose");
+  motion_.correct(stamp, estimate.map_from_base, estimate.covariance);
+  return estimate;
+}
+
+template <SurfaceIndex Index>
+PoseEstimate IcpLocalizer<Index>::coast(const Prediction& prediction, Stamp stamp, std::string_view reason) {
+  PoseEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.map_from_base = prediction.map_from_base;
+  estimate.covariance = symmetric(prediction.covariance);
+  estimate.status = health_.judge(0.0);
+  estimate.reason = reason;
+  return estimate;
+}
+
+template class IcpLocalizer<WallIndex>;
+template class IcpLocalizer<CellIndex>;
+
+}  // namespace beaconless

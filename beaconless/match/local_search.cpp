@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/match/local_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beaconless {
+namespace {
+
+std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points, int count) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / static_cast<std::size_t>(count));
+  std::vector<Eigen::Vector2d> kept;
+  for (std::size_t i = stride / 2; i < points.size(); i += stride) kept.push_back(points[i]);
+  return kept;
+}
+
+/// Mean truncated squared distance to the map, 0 … 1.
+template <SurfaceIndex Index>
+double misfit(std::span<const Eigen::Vector2d> arms, const Index& map, const Eigen::Vector2d& origin,
+              double truncate_m) {
+  const double worst = truncate_m * truncate_m;
+  double sum = 0.0;
+  for (const Eigen::Vector2d& arm : arms) {
+    const auto surface = map.nearest(origin + arm);
+    sum += surface ? std::min(worst, surface->distance_m * surface->distance_m) : worst;
+  }
+  return sum / (worst * static_cast<double>(arms.size()));
+}
+
+/// Keeps the best poses, leaving out neighbours of better ones.
+std::vector<StartPose> best_apart(std::vector<StartPose> poses, const LocalSearchConfig& config) {
+  std::sort(poses.begin(), poses.end(),
+            [](const StartPose& a, const StartPose& b) { return a.cost < b.cost; });
+  std::vector<StartPose> kept;
+  for (const StartPose& pose : poses) {
+    const bool neighbour = std::any_of(kept.begin(), kept.end(), [&](const StartPose& better) {
+      return distance_m(pose.map_from_laser, better.map_from_laser) < 1.6 * config.step_m &&
+             heading_difference_rad(pose.map_from_laser, better.map_from_laser) <
+                 radians(2.1 * config.step_deg);
+    });
+    if (!neighbour) kept.push_back(pose);
+    if (kept.size() == static_cast<std::size_t>(config.keep)) break;
+  }
+  return kept;
+}
+
+template <SurfaceIndex Index>
+std::vector<StartPose> search(std::span<const Eigen::Vector2d> points, const Index& map, const Pose2& guess,
+                              const LocalSearchConfig& config) {
+  if (points.empty()) return {};
+  const std::vector<Eigen::Vector2d> few = thinned(points, config.points);
+  std::vector<Eigen::Vector2d> arms(few.size());
+  const int turns = static_cast<int>(std::ceil(config.window_deg / config.step_deg));
+  const int moves = static_cast<int>(std::ceil(config.window_m / config.step_m));
+  std::vector<StartPose> poses;
+  for (int k = -turns; k <= turns; ++k) {
+    const double theta = wrap_angle(guess.theta_rad + radians(k * config.step_deg));
+    const Eigen::Matrix2d rotation = Pose2{0.0, 0.0, theta}.rotation();
+    std::transform(few.begin(), few.end(), arms.begin(),
+                   [&](const auto& p) -> Eigen::Vector2d { return rotation * p; });
+    for (int i = -moves; i <= moves; ++i) {
+      for (int j = -moves; j <= moves; ++j) {
+        const Pose2 pose{guess.x_m + i * config.step_m, guess.y_m + j * config.step_m, theta};
+        const double away = std::max(
+            {std::abs(k) / std::max(1.0, 1.0 * turns), std::hypot(i, j) / std::max(1.0, 1.0 * moves)});
+        poses.push_back({pose, misfit(std::span<const Eigen::Vector2d>(arms), map, pose.translation(),
+                                      config.truncate_m) +
+                                   config.far_penalty * away * away});
+      }
+    }
+  }
+  return best_apart(std::move(poses), config);
+}
+
+}  // namespace
+
+void describe(Fields& fields, LocalSearchConfig& config) {
+  fields("window_m", config.window_m, {0.0, 10.0}, "how far to each side starts are tried");
+  fields("step_m", config.step_m, {0.005, 1.0}, "distance between starts");
+  fields("window_deg", config.window_deg, {0.0, 180.0}, "how far to each side headings are tried");
+  fields("step_deg", config.step_deg, {0.1, 30.0}, "angle between headings");
+  fields("points", config.points, {10, 10000}, "points of the scan that vote, evenly taken");
+  fields("truncate_m", config.truncate_m, {0.01, 10.0},
+         "points further from every wall than this all count the same");
+  fields("far_penalty", config.far_penalty, {0.0, 10.0}, "cost of a start at the window's edge");
+  fields("keep", config.keep, {1, 100}, "best starts that are followed up");
+}
+
+std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, const WallIndex& map,
+                                     const Pose2& guess, const LocalSearchConfig& config) {
+  return search(points, map, guess, config);
+}
+
+std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, const CellIndex& map,
+                                     const Pose2& guess, const LocalSearchConfig& config) {
+  return search(points, map, guess, config);
+}
+
+}  // namespace beaconless

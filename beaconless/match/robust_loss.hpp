@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+
+namespace beaconless {
+
+/// A robust criterion on whitened residuals u = r / sigma.
+///
+/// `rho(u²)` is the cost, `weight(u²)` = rho'(u) / u is what a re-weighted least-squares step multiplies
+/// with; weight(0) = 1 and weights never grow. Scales are in sigmas. Source: dissertation 2.3.1; Bergström
+/// and Edlund, "Robust registration of point sets using iteratively reweighted least squares", 2014. Differs:
+/// the dissertation feeds metres, with which its constants reject nothing; its Tukey cost beyond k is Huber's
+/// (correct: k²/6) and its Welsch cost is Cauchy's (correct: (k²/2)(1 - exp(-u²/k²))). Its weights are right.
+template <class Loss>
+concept RobustLoss = requires(const Loss& loss, double squared) {
+  { loss.rho(squared) } -> std::same_as<double>;
+  { loss.weight(squared) } -> std::same_as<double>;
+  { Loss::kEfficient95 } -> std::convertible_to<double>;
+};
+
+/// Quadratic near zero, linear beyond k: bounded influence, but every outlier keeps some.
+struct Huber {
+  static constexpr double kEfficient95 =
+      1.3453;  ///< 95 % as efficient as least squares on Gaussian residuals
+  double k = kEfficient95;
+
+  double rho(double squared) const {
+    return squared <= k * k ? 0.5 * squared : k * std::sqrt(squared) - 0.5 * k * k;
+  }
+  double weight(double squared) const { return squared <= k * k ? 1.0 : k / std::sqrt(squared); }
+};
+
+/// Logarithmic: influence falls off slowly.
+struct Cauchy {
+  static constexpr double kEfficient95 = 2.3849;
+  double k = kEfficient95;
+
+  double rho(double squared) const { return 0.5 * k * k * std::log1p(squared / (k * k)); }
+  double weight(double squared) const { return 1.0 / (1.0 + squared / (k * k)); }
+};
+
+/// Bi-weight: beyond k nothing counts. Needs a start that is nearly right.
+struct Tukey {
+  static constexpr double kEfficient95 = 4.6851;
+  double k = kEfficient95;
+
+  double rho(double squared) const {
+    const double inside = std::max(0.0, 1.0 - squared / (k * k));
+    return k * k / 6.0 * (1.0 - inside * inside * inside);
+  }
+  double weight(double squared) const {
+    const double inside = std::max(0.0, 1.0 - squared / (k * k));
+    return inside * inside;
+  }
+};
+
+/// Gaussian: like Tukey, smooth to infinity.
+struct Welsch {
+  static constexpr double kEfficient95 = 2.9846;
+  double k = kEfficient95;
+
+  double rho(double squared) const { return -0.5 * k * k * std::expm1(-squared / (k * k)); }
+  double weight(double squared) const { return std::exp(-squared / (k * k)); }
+};
+
+/// Rational: between Cauchy and Welsch.
+struct GemanMcClure {
+  static constexpr double kEfficient95 = 3.7874;
+  double k = kEfficient95;
+
+  double rho(double squared) const { return 0.5 * k * k * squared / (k * k + squared); }
+  double weight(double squared) const {
+    const double ratio = k * k / (k * k + squared);
+    return ratio * ratio;
+  }
+};
+
+static_assert(RobustLoss<Huber> && RobustLoss<Cauchy> && RobustLoss<Tukey> && RobustLoss<Welsch> &&
+              RobustLoss<GemanMcClure>);
+
+/// The losses by name; `with_loss` turns a name into the type.
+enum class LossKind : int { huber, cauchy, tukey, welsch, geman_mcclure };
+
+/// Calls `use(loss)` with the loss of a kind. `k_sigma` 0 means its 95 % constant.
+template <class Use>
+decltype(auto) with_loss(LossKind kind, double k_sigma, Use&& use) {
+  const auto make = [&]<RobustLoss Loss>(Loss loss) {
+    if (k_sigma > 0.0) loss.k = k_sigma;
+    return loss;
+  };
+  switch (kind) {
+    case LossKind::cauchy:
+      return use(make(Cauchy{}));
+    case LossKind::tukey:
+      return use(make(Tukey{}));
+    case LossKind::welsch:
+      return use(make(Welsch{}));
+    case LossKind::geman_mcclure:
+      return use(make(GemanMcClure{}));
+    case LossKind::huber:
+      break;
+  }
+  return use(make(Huber{}));
+}
+
+}  // namespace beaconless

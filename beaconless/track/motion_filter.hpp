@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "beaconless/core/describe.hpp"
+#include "beaconless/core/stamp.hpp"
+#include "beaconless/geometry/pose2.hpp"
+
+namespace beaconless {
+
+/// How a robot may change its motion from one scan to the next.
+struct MotionConfig {
+  double acceleration_mps2 = 1.0;         ///< standard deviation of what the speed may change in a second
+  double turn_acceleration_radps2 = 1.5;  ///< … and the rate of turn
+  double max_gap_s = 1.0;                 ///< after a longer silence the robot is taken to stand where it was
+};
+
+void describe(Fields& fields, MotionConfig& config);
+
+/// Where the robot should be now, and how sure that is.
+struct Prediction {
+  Pose2 map_from_base;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// Carries the motion of the last two poses on to the next scan: constant velocity, no odometry needed.
+///
+/// Source: dissertation 4.4 works without wheels; the constant-twist model is that of Vizzo et al.,
+/// "KISS-ICP", 2023. Differs: uncertainty grows with the accelerations of MotionConfig; where stamps stand
+/// still or run backwards the last step from scan to scan is repeated.
+class MotionFilter {
+ public:
+  explicit MotionFilter(const MotionConfig& config = {}) : config_(config) {}
+
+  void start_at(const Pose2& map_from_base);
+
+  Prediction predict(Stamp stamp) const;
+
+  /// Tells the filter where the robot was at `stamp`, and how sure that is.
+  void correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
+
+ private:
+  MotionConfig config_;
+  Pose2 last_;
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  Stamp stamp_;
+  Twist2 step_;          // base frame, over step_s_
+  double step_s_ = 0.0;  // 0: no motion known yet
+  bool stamped_ = false;
+};
+
+}  // namespace beaconless
