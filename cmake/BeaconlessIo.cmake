@@ -6,5 +6,5 @@ find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 
-beaconless_module(io PUBLIC beaconless_map PRIVATE yaml-cpp ZLIB::ZLIB PNG::PNG nlohmann_json::nlohmann_json
+beaconless_module(io PUBLIC beaconless_map beaconless_sim PRIVATE yaml-cpp ZLIB::ZLIB PNG::PNG nlohmann_json::nlohmann_json
                   fmt::fmt EXCLUDE rosbag1_bag.cpp)

@@ -8,14 +8,11 @@
 namespace beaconless::sim {
 namespace {
 
-constexpr double kLongest_s = 86400.0;
-
 bool is_place(const Eigen::Vector2d& point) {
   return std::abs(point.x()) <= 1e6 && std::abs(point.y()) <= 1e6;
 }
 
 Result<Done> check(const LidarConfig& lidar) {
-  if (auto good = check_config(lidar); !good) return good;
   if (lidar.angle_max_deg <= lidar.angle_min_deg)
     return Error{"angle_max_deg", "is not above angle_min_deg", "beams run counter-clockwise"};
   if (lidar.angle_max_deg - lidar.angle_min_deg > 360.0)
@@ -26,12 +23,7 @@ Result<Done> check(const LidarConfig& lidar) {
 }
 
 Result<Done> check(const Person& person) {
-  if (!(person.radius_m > 0.0 && person.radius_m <= 10.0))
-    return Error{"radius_m", "is " + std::to_string(person.radius_m), "allowed: above 0, up to 10"};
-  if (!(person.speed_mps >= 0.0 && person.speed_mps <= 100.0))
-    return Error{"speed_mps", "is " + std::to_string(person.speed_mps), "allowed: 0 … 100"};
-  if (!(std::abs(person.start_s) <= kLongest_s))
-    return Error{"start_s", "is " + std::to_string(person.start_s), "allowed: -86400 … 86400"};
+  if (auto good = check_config(person); !good) return good;
   if (person.waypoints.empty()) return Error{"waypoints", "are none", "a person needs a place to stand"};
   for (const Eigen::Vector2d& point : person.waypoints)
     if (!is_place(point)) return Error{"waypoints", "lie outside -1e6 … 1e6 m", ""};
@@ -61,9 +53,14 @@ std::size_t Scenario::sweep_count() const {
   return static_cast<std::size_t>(std::ceil(std::max(0.0, duration_s * lidar.rate_hz - 1e-6)));
 }
 
+void describe(Fields& fields, Scenario& scenario) {
+  fields("duration_s", scenario.duration_s, {0, 86400}, "how long it is recorded, whatever the path takes");
+  fields("seed", scenario.seed, {0, 2147483647}, "other seeds give other noise");
+  fields.section("lidar", scenario.lidar);
+}
+
 Result<Done> check(const Scenario& scenario) {
-  if (!(scenario.duration_s >= 0.0 && scenario.duration_s <= kLongest_s))
-    return Error{"duration_s", "is " + std::to_string(scenario.duration_s), "allowed: 0 … 86400"};
+  if (auto good = check_config(scenario); !good) return good;
   if (!scenario.base_from_laser.is_finite()) return Error{"base_from_laser", "is not finite", ""};
   if (auto good = check(scenario.lidar); !good) return inside("lidar", good.error());
   if (auto good = check(scenario.path); !good) return inside("path", good.error());
@@ -79,7 +76,7 @@ Result<Done> simulate(const Scenario& scenario, const std::function<void(const S
   const auto map_from_laser = [&](double time_s) {
     return drive.map_from_base(time_s) * scenario.base_from_laser;
   };
-  Rng rng(scenario.seed);
+  Rng rng(static_cast<std::uint64_t>(scenario.seed));
   for (std::size_t i = 0; i < scenario.sweep_count(); ++i) {
     const double time_s = static_cast<double>(i) / scenario.lidar.rate_hz;
     Rng noise = rng.fork(i);

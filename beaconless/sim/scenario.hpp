@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,7 +26,7 @@ struct Scenario {
   Path path = Standing{};
   double duration_s = 10.0;
   Pose2 base_from_laser{0.7, 0.0, 0.0};  ///< the dissertation's robot, 4.1
-  std::uint64_t seed = 1;
+  int seed = 1;
 
   /// Sweeps begin at 0, 1 / rate, 2 / rate, … before duration_s.
   std::size_t sweep_count() const;
@@ -34,8 +34,10 @@ struct Scenario {
   friend bool operator==(const Scenario&, const Scenario&) = default;
 };
 
-/// What may be wrong with a scenario: a lidar, path or person out of range, a duration that is not 0 … 86400
-/// s.
+void describe(Fields& fields, Scenario& scenario);  ///< duration_s, seed, lidar.*
+
+/// Done, or the first thing that keeps the scenario from being run: a field out of its range, a person or a
+/// drive without waypoints, a scanner that sees nothing.
 Result<Done> check(const Scenario& scenario);
 
 /// One sweep as it was measured, and where the base truly was at its stamp (that of the first beam).

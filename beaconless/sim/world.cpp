@@ -37,6 +37,12 @@ Eigen::Vector2d Person::position_m(double time_s) const {
   return waypoints.back();
 }
 
+void describe(Fields& fields, Person& person) {
+  fields("radius_m", person.radius_m, {0.01, 10}, "of the disc that the laser sees");
+  fields("speed_mps", person.speed_mps, {0, 100}, "how fast the person walks");
+  fields("start_s", person.start_s, {-86400, 86400}, "when the person leaves the first waypoint");
+}
+
 World::World(const FloorPlan& plan, std::vector<Person> people)
     : walls_(plan.segments()), people_(std::move(people)) {}
 

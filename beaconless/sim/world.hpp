@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "beaconless/core/describe.hpp"
 #include "beaconless/map/floor_plan.hpp"
 #include "beaconless/map/ray_caster.hpp"
 
@@ -23,6 +24,8 @@ struct Person {
 
   friend bool operator==(const Person&, const Person&) = default;
 };
+
+void describe(Fields& fields, Person& person);  ///< all but the waypoints
 
 /// A flat world: walls that stand and people who walk.
 class World {
