@@ -24,7 +24,8 @@ bool inside(double value, const Range& range) {
 }
 
 Error not_allowed(const Field& field, std::string_view text) {
-  return {field.name, "the value \"" + std::string(text) + "\" is not allowed", "allowed: " + field.allowed()};
+  return {field.name, "the value \"" + std::string(text) + "\" is not allowed",
+          "allowed: " + field.allowed()};
 }
 
 std::string join(const Words& words) {
@@ -37,16 +38,21 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;  // clang before 17 does not deduce it
 
 }  // namespace
 
 std::string Field::text() const {
-  return std::visit(
-      Overloaded{[](const double* v) { return shortest(*v); }, [](const int* v) { return std::to_string(*v); },
-                 [](const bool* v) { return std::string(*v ? "true" : "false"); },
-                 [](const std::string* v) { return *v; },
-                 [this](const Choice& v) { return words.at(static_cast<std::size_t>(v.get())); }},
-      slot);
+  return std::visit(Overloaded{[](const double* v) { return shortest(*v); },
+                               [](const int* v) { return std::to_string(*v); },
+                               [](const bool* v) { return std::string(*v ? "true" : "false"); },
+                               [](const std::string* v) { return *v; },
+                               [this](const Choice& v) {
+                                 const auto i = static_cast<std::size_t>(v.get());
+                                 return i < words.size() ? words[i] : std::to_string(v.get());
+                               }},
+                    slot);
 }
 
 std::string Field::allowed() const {
@@ -67,42 +73,40 @@ std::optional<Error> Field::check() const {
                  }},
       slot);
   if (good) return std::nullopt;
-  const auto* choice = std::get_if<Choice>(&slot);
-  return not_allowed(*this, choice != nullptr ? std::to_string(choice->get()) : text());
+  return not_allowed(*this, text());
 }
 
-Result<Done> Field::set(std::string_view value) const {
-  const auto word = std::find(words.begin(), words.end(), value);
-  const bool good = std::visit(
-      Overloaded{[&](double* v) {
-                   const auto number = parse_double(value);
-                   if (!number || !inside(*number, *range)) return false;
-                   *v = *number;
-                   return true;
-                 },
-                 [&](int* v) {
-                   const auto number = parse_int(value);
-                   if (!number || !inside(*number, *range)) return false;
-                   *v = *number;
-                   return true;
-                 },
-                 [&](bool* v) {
-                   if (word == words.end()) return false;
-                   *v = value == "true";
-                   return true;
-                 },
-                 [&](std::string* v) {
-                   if (!words.empty() && word == words.end()) return false;
-                   *v = value;
-                   return true;
-                 },
-                 [&](const Choice& v) {
-                   if (word == words.end()) return false;
-                   v.set(static_cast<int>(word - words.begin()));
-                   return true;
-                 }},
-      slot);
-  if (!good) return not_allowed(*this, value);
+Result<Done> Field::set(std::string_view text) const {
+  const auto word = std::find(words.begin(), words.end(), text);
+  const bool good = std::visit(Overloaded{[&](double* v) {
+                                            const auto number = parse_double(text);
+                                            if (!number || !inside(*number, *range)) return false;
+                                            *v = *number;
+                                            return true;
+                                          },
+                                          [&](int* v) {
+                                            const auto number = parse_int(text);
+                                            if (!number || !inside(*number, *range)) return false;
+                                            *v = *number;
+                                            return true;
+                                          },
+                                          [&](bool* v) {
+                                            if (word == words.end()) return false;
+                                            *v = text == "true";
+                                            return true;
+                                          },
+                                          [&](std::string* v) {
+                                            if (!words.empty() && word == words.end()) return false;
+                                            *v = text;
+                                            return true;
+                                          },
+                                          [&](const Choice& v) {
+                                            if (word == words.end()) return false;
+                                            v.set(static_cast<int>(word - words.begin()));
+                                            return true;
+                                          }},
+                               slot);
+  if (!good) return not_allowed(*this, text);
   return Done{};
 }
 

@@ -32,8 +32,8 @@ struct Choice {
 struct Field {
   using Slot = std::variant<double*, int*, bool*, std::string*, Choice>;
 
-  std::string name;      ///< "icp.max_pair_distance_m"
-  Slot slot;             ///< points into the config that was described
+  std::string name;  ///< "icp.max_pair_distance_m"
+  Slot slot;         ///< points into the config that was described
   std::optional<Range> range;
   Words words;           ///< for enumerations, and for strings with a closed list
   std::string sentence;  ///< what it is for
@@ -41,7 +41,8 @@ struct Field {
   /// The value as people type it.
   std::string text() const;
 
-  /// Sets the value from text; an Error names the field, the value met and what is allowed, and changes nothing.
+  /// Sets the value from text; an Error names the field, the value met and what is allowed, and changes
+  /// nothing.
   Result<Done> set(std::string_view text) const;
 
   /// "0.01 … 10", "huber | cauchy | tukey", "true | false" or "text".
@@ -53,9 +54,9 @@ struct Field {
 
 /// Collects the fields of a config; handed to `describe(fields, config)`.
 ///
-/// A config is a plain struct. Beside it stands `void describe(Fields&, Config&)`, the one place where its names,
-/// ranges and sentences are written; reading, checking, dumping, help and documentation all come from there, and
-/// defaults from the struct itself.
+/// A config is a plain struct. Beside it stands `void describe(Fields&, Config&)`, the one place where its
+/// names, ranges and sentences are written; reading, checking, dumping, help and documentation all come from
+/// there, and defaults from the struct itself.
 class Fields {
  public:
   void operator()(std::string_view name, double& value, Range range, std::string_view sentence) {
@@ -72,10 +73,11 @@ class Fields {
   }
   /// An enumeration whose enumerators count from 0 as `words` do.
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   void operator()(std::string_view name, Enum& value, Words words, std::string_view sentence) {
     add({full(name),
-         Choice{[&value] { return static_cast<int>(value); }, [&value](int i) { value = static_cast<Enum>(i); }},
+         Choice{[&value] { return static_cast<int>(value); },
+                [&value](int i) { value = static_cast<Enum>(i); }},
          std::nullopt, std::move(words), std::string(sentence)});
   }
   /// A config inside a config: its fields are named "section.field".

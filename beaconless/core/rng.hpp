@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -8,8 +9,9 @@ namespace beaconless {
 
 /// A seeded source of random numbers that gives the same sequence with every compiler and on every machine.
 ///
-/// Source: Blackman and Vigna, "Scrambled linear pseudorandom number generators", ACM TOMS 2021 (xoshiro256++),
-/// seeded by splitmix64. Differs from <random>: the distributions there are not specified bit for bit.
+/// Source: Blackman and Vigna, "Scrambled linear pseudorandom number generators", ACM TOMS 2021
+/// (xoshiro256++), seeded by splitmix64. Differs from <random>: the distributions there are not specified bit
+/// for bit.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) {
@@ -41,7 +43,8 @@ class Rng {
   /// Uniform in [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// Gaussian with mean 0 and standard deviation `sigma` (Marsaglia's polar method, one draw kept back by nobody).
+  /// Gaussian with mean 0 and standard deviation `sigma` (Marsaglia's polar method, one draw kept back by
+  /// nobody).
   double normal(double sigma = 1.0) {
     for (;;) {
       const double u = 2.0 * uniform() - 1.0;
@@ -57,7 +60,7 @@ class Rng {
  private:
   static std::uint64_t rotate(std::uint64_t x, unsigned k) { return (x << k) | (x >> (64U - k)); }
 
-  std::uint64_t state_[4] = {};
+  std::array<std::uint64_t, 4> state_{};
 };
 
 }  // namespace beaconless

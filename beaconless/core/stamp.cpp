@@ -23,6 +23,19 @@ Stamp Stamp::from_seconds(double seconds_s) {
   return {std::llround(seconds_s * 1e9)};
 }
 
+double seconds_between(Stamp earlier, Stamp later) {
+  std::int64_t ns = 0;
+  if (__builtin_sub_overflow(later.ns, earlier.ns, &ns)) return later.seconds() - earlier.seconds();
+  return static_cast<double>(ns) * 1e-9;
+}
+
+Stamp operator+(Stamp stamp, double seconds_s) {
+  const std::int64_t added = Stamp::from_seconds(seconds_s).ns;
+  std::int64_t ns = 0;
+  if (!__builtin_add_overflow(stamp.ns, added, &ns)) return {ns};
+  return {added > 0 ? std::numeric_limits<std::int64_t>::max() : std::numeric_limits<std::int64_t>::min()};
+}
+
 std::optional<Stamp> parse_stamp(std::string_view text) {
   const std::string_view whole = text;
   const bool negative = !text.empty() && text.front() == '-';
@@ -55,7 +68,8 @@ std::optional<Stamp> parse_stamp(std::string_view text) {
 
 std::string to_string(Stamp stamp) {
   const bool negative = stamp.ns < 0;
-  const auto magnitude = negative ? 0 - static_cast<std::uint64_t>(stamp.ns) : static_cast<std::uint64_t>(stamp.ns);
+  const auto magnitude =
+      negative ? 0 - static_cast<std::uint64_t>(stamp.ns) : static_cast<std::uint64_t>(stamp.ns);
   std::string decimals = std::to_string(magnitude % kNanosPerSecond);
   decimals.insert(0, 9 - decimals.size(), '0');
   return (negative ? "-" : "") + std::to_string(magnitude / kNanosPerSecond) + "." + decimals;

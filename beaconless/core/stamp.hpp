@@ -18,17 +18,15 @@ struct Stamp {
   static Stamp from_seconds(double seconds_s);
 
   double seconds() const { return static_cast<double>(ns) * 1e-9; }
-  friend constexpr auto operator<=>(const Stamp&, const Stamp&) = default;
+  friend constexpr auto operator<=>(const Stamp&,
+                                    const Stamp&) = default;  // NOLINT(modernize-use-nullptr): its bug
 };
 
 /// Seconds from `earlier` to `later`; negative when the order is the other way round.
-inline double seconds_between(Stamp earlier, Stamp later) {
-  return static_cast<double>(later.ns - earlier.ns) * 1e-9;
-}
+double seconds_between(Stamp earlier, Stamp later);
 
-inline Stamp operator+(Stamp stamp, double seconds_s) {
-  return {stamp.ns + Stamp::from_seconds(seconds_s).ns};
-}
+/// The moment `seconds_s` later, to the nanosecond; stays inside what a Stamp can hold.
+Stamp operator+(Stamp stamp, double seconds_s);
 
 /// Reads decimal seconds ("1411657682.042859", "-0.5", "12") without passing through a double.
 ///

@@ -7,7 +7,8 @@
 
 namespace beaconless {
 
-/// The candidate that `word` was most likely meant to be, or "" when none is near (edit distance over half the word).
+/// The candidate that `word` was most likely meant to be, or "" when none is near (edit distance over half
+/// the word).
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace beaconless

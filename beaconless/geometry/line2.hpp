@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <optional>
+
+#include <Eigen/Core>
 
 #include "beaconless/geometry/angle.hpp"
 
@@ -38,9 +39,10 @@ struct Line2 {
 /// Where two lines cross; nothing when they are closer to parallel than `min_angle_rad`.
 ///
 /// Source: Cramer's rule on the two normal forms; dissertation Algorithm 5.
-inline std::optional<Eigen::Vector2d> intersection(const Line2& p, const Line2& q, double min_angle_rad = 1e-9) {
+inline std::optional<Eigen::Vector2d> intersection(const Line2& p, const Line2& q,
+                                                   double min_angle_rad = 1e-9) {
   const double sine = std::sin(q.alpha_rad - p.alpha_rad);
-  if (std::abs(sine) < std::sin(min_angle_rad)) return std::nullopt;
+  if (!(std::abs(sine) >= std::sin(min_angle_rad))) return std::nullopt;
   return Eigen::Vector2d{(p.rho_m * std::sin(q.alpha_rad) - q.rho_m * std::sin(p.alpha_rad)) / sine,
                          (q.rho_m * std::cos(p.alpha_rad) - p.rho_m * std::cos(q.alpha_rad)) / sine};
 }

@@ -17,8 +17,9 @@ struct LeftJacobian {
       a = 1.0 - square / 6.0;
       b = theta_rad * (0.5 - square / 24.0);
     } else {
+      const double half = std::sin(0.5 * theta_rad);  // 1 - cos(theta) loses the small angles
       a = std::sin(theta_rad) / theta_rad;
-      b = (1.0 - std::cos(theta_rad)) / theta_rad;
+      b = 2.0 * half * half / theta_rad;
     }
   }
 };

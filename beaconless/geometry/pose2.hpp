@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <ostream>
+
+#include <Eigen/Core>
 
 #include "beaconless/geometry/angle.hpp"
 
@@ -24,8 +25,8 @@ struct Twist2 {
 /// A pose in the plane, and the rigid motion SE(2) that carries coordinates from one frame to another.
 ///
 /// Variables name both frames, `a_from_b`, so that products cancel when read aloud:
-/// `map_from_laser = map_from_base * base_from_laser`. Heading is counter-clockwise from x; results of operations
-/// have it in [-pi, pi).
+/// `map_from_laser = map_from_base * base_from_laser`. Heading is counter-clockwise from x; results of
+/// operations have it in [-pi, pi).
 struct Pose2 {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -64,9 +65,11 @@ double heading_difference_rad(const Pose2& a, const Pose2& b);
 /// The pose `fraction` of the way from `a` (0) to `b` (1) along a constant twist; beyond both ends too.
 Pose2 interpolate(const Pose2& a, const Pose2& b, double fraction);
 
-/// The covariance of (x, y, theta) of `map_from_b` when that of `map_from_a` is given and b is rigidly fixed to a.
+/// The covariance of (x, y, theta) of `map_from_b` when that of `map_from_a` is given and b is rigidly fixed
+/// to a.
 ///
 /// In: 3x3, ordered x, y, theta, in m², m·rad, rad², x and y along the map axes.
-Eigen::Matrix3d moved_covariance(const Eigen::Matrix3d& covariance_a, const Pose2& map_from_a, const Pose2& a_from_b);
+Eigen::Matrix3d moved_covariance(const Eigen::Matrix3d& covariance_a, const Pose2& map_from_a,
+                                 const Pose2& a_from_b);
 
 }  // namespace beaconless

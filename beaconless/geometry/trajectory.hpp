@@ -29,9 +29,9 @@ class Trajectory {
 
   /// The pose at a moment, along the constant twist between its two neighbours.
   ///
-  /// Nothing before the first or after the last pose, nor where the neighbours are more than `max_gap_s` apart
-  /// (a stamp that is in the trajectory always answers, the first of several equal ones).
-  /// Cost: O(log n).
+  /// Nothing before the first or after the last pose, nor where the neighbours are more than `max_gap_s`
+  /// apart (a stamp that is in the trajectory always answers, the first of several equal ones). Cost: O(log
+  /// n).
   std::optional<Pose2> at(Stamp stamp, double max_gap_s = 1.0) const;
 
   /// Metres along the poses.

@@ -12,6 +12,9 @@
 namespace beaconless {
 namespace {
 
+constexpr double kFarthest_m = 1e5;  // no scanner sees so far, and squares of it stay well inside a float
+constexpr double kLongestSweep_s = 60.0;  // nor turns so slowly
+
 std::optional<Error> refuse(const RawScan& raw) {
   const std::string where = "scan at " + to_string(raw.stamp);
   if (raw.ranges_m.empty()) return Error{where, "has no beams", ""};
@@ -19,8 +22,8 @@ std::optional<Error> refuse(const RawScan& raw) {
     return Error{where, "has " + std::to_string(raw.ranges_m.size()) + " beams, more than any scanner", ""};
   if (!raw.intensities.empty() && raw.intensities.size() != raw.ranges_m.size())
     return Error{where,
-                 std::to_string(raw.intensities.size()) + " intensities for " + std::to_string(raw.ranges_m.size()) +
-                     " ranges",
+                 std::to_string(raw.intensities.size()) + " intensities for " +
+                     std::to_string(raw.ranges_m.size()) + " ranges",
                  "the record is damaged"};
   if (!std::isfinite(raw.angle_min_rad) || std::abs(raw.angle_min_rad) > 100.0F)
     return Error{where, "angle_min is " + std::to_string(raw.angle_min_rad), "angles are radians"};
@@ -31,21 +34,19 @@ std::optional<Error> refuse(const RawScan& raw) {
   return std::nullopt;
 }
 
-/// Turns a clockwise sweep round, so that bearings ascend. Gives the signed time from one beam to the next.
-float make_counter_clockwise(RawScan& raw) {
-  if (raw.angle_increment_rad > 0.0F) return raw.time_increment_s;
-  const auto last = static_cast<float>(raw.ranges_m.size() - 1);
-  raw.angle_min_rad = raw.angle_min_rad + last * raw.angle_increment_rad;
-  raw.angle_increment_rad = -raw.angle_increment_rad;
-  std::reverse(raw.ranges_m.begin(), raw.ranges_m.end());
-  std::reverse(raw.intensities.begin(), raw.intensities.end());
-  return -raw.time_increment_s;
+/// Seconds from one beam to the next; 0 where the source tells none that a scanner could have.
+double beam_step_s(const RawScan& raw) {
+  const auto step_s = static_cast<double>(raw.time_increment_s);
+  const double sweep_s = step_s * static_cast<double>(raw.ranges_m.size());
+  return step_s > 0.0 && sweep_s < kLongestSweep_s ? step_s : 0.0;
 }
 
-/// How many beams fit on one turn: a beam within half a step of 360° after the first is the first one again.
-std::size_t beams_of_one_turn(const RawScan& raw) {
-  const double fit = std::floor(2.0 * kPi / static_cast<double>(raw.angle_increment_rad) + 0.5);
-  return std::min(raw.ranges_m.size(), static_cast<std::size_t>(std::max(fit, 1.0)));
+/// Keeps one turn: a beam within half a step of 360° after the first is the first one again.
+void drop_second_turn(RawScan& raw) {
+  const double fit = std::floor(2.0 * kPi / std::abs(static_cast<double>(raw.angle_increment_rad)) + 0.5);
+  const std::size_t count = std::min(raw.ranges_m.size(), static_cast<std::size_t>(fit));
+  raw.ranges_m.resize(count);
+  if (!raw.intensities.empty()) raw.intensities.resize(count);
 }
 
 Beam judge(float range_m, double range_min_m, double range_max_m) {
@@ -65,38 +66,50 @@ Result<Scan> Scan::make(RawScan raw, const ScanGate& gate) {
 
   Scan scan;
   scan.range_min_m_ = std::max({finite_or_zero(raw.range_min_m), static_cast<double>(gate.range_min_m), 0.0});
-  scan.range_max_m_ = raw.range_max_m > 0.0F ? static_cast<double>(raw.range_max_m)
-                                             : std::numeric_limits<double>::infinity();
-  if (gate.range_max_m > 0.0F) scan.range_max_m_ = std::min(scan.range_max_m_, static_cast<double>(gate.range_max_m));
+  scan.range_max_m_ =
+      raw.range_max_m > 0.0F ? static_cast<double>(raw.range_max_m) : std::numeric_limits<double>::infinity();
+  if (gate.range_max_m > 0.0F)
+    scan.range_max_m_ = std::min(scan.range_max_m_, static_cast<double>(gate.range_max_m));
   if (scan.range_min_m_ >= scan.range_max_m_)
     return Error{"scan at " + to_string(raw.stamp),
                  "range_min " + std::to_string(scan.range_min_m_) + " m is not below range_max " +
                      std::to_string(scan.range_max_m_) + " m",
                  "no beam could be used"};
 
-  raw.time_increment_s = static_cast<float>(finite_or_zero(raw.time_increment_s));
-  const double sweep_s = static_cast<double>(raw.time_increment_s) * static_cast<double>(raw.ranges_m.size() - 1);
-  const float step_s = make_counter_clockwise(raw);
-  const std::size_t count = beams_of_one_turn(raw);
+  const double step_s = beam_step_s(raw);
+  const double sweep_s = step_s * static_cast<double>(raw.ranges_m.size() - 1);
+  const double late_s = gate.stamp_is == StampIs::first_beam  ? 0.0
+                        : gate.stamp_is == StampIs::last_beam ? sweep_s
+                                                              : 0.5 * sweep_s;
+  scan.stamp_ = raw.stamp + -late_s;
+  scan.scan_time_s_ = std::max(finite_or_zero(raw.scan_time_s), 0.0);
 
-  scan.frame_id_ = std::move(raw.frame_id);
-  scan.scan_time_s_ = finite_or_zero(raw.scan_time_s);
+  drop_second_turn(raw);
+  const std::size_t count = raw.ranges_m.size();
   scan.angle_min_rad_ = static_cast<double>(raw.angle_min_rad);
   scan.angle_increment_rad_ = static_cast<double>(raw.angle_increment_rad);
-  scan.time_increment_s_ = static_cast<double>(step_s);
-  scan.first_beam_time_s_ = step_s < 0.0F ? sweep_s : 0.0;
-  const double late_s = gate.stamp_is == StampIs::first_beam ? 0.0 : gate.stamp_is == StampIs::last_beam ? sweep_s : 0.5 * sweep_s;
-  scan.stamp_ = raw.stamp + -late_s;
+  scan.time_increment_s_ = step_s;
+  if (raw.angle_increment_rad < 0.0F) {  // clockwise: turned round, so that bearings ascend
+    const auto last = static_cast<double>(count - 1);
+    scan.angle_min_rad_ += last * scan.angle_increment_rad_;
+    scan.angle_increment_rad_ = -scan.angle_increment_rad_;
+    scan.first_beam_time_s_ = last * step_s;
+    scan.time_increment_s_ = -step_s;
+    std::reverse(raw.ranges_m.begin(), raw.ranges_m.end());
+    std::reverse(raw.intensities.begin(), raw.intensities.end());
+  }
 
-  raw.ranges_m.resize(count);
-  if (!raw.intensities.empty()) raw.intensities.resize(count);
+  scan.frame_id_ = std::move(raw.frame_id);
   scan.ranges_m_ = std::move(raw.ranges_m);
   scan.intensities_ = std::move(raw.intensities);
+  for (float& intensity : scan.intensities_)
+    if (!std::isfinite(intensity)) intensity = 0.0F;
   scan.beams_.resize(count);
   scan.x_m_.resize(count);
   scan.y_m_.resize(count);
+  const double farthest_m = std::min(scan.range_max_m_, kFarthest_m);
   for (std::size_t i = 0; i < count; ++i) {
-    scan.beams_[i] = judge(scan.ranges_m_[i], scan.range_min_m_, scan.range_max_m_);
+    scan.beams_[i] = judge(scan.ranges_m_[i], scan.range_min_m_, farthest_m);
     if (scan.beams_[i] != Beam::hit) {
       scan.ranges_m_[i] = 0.0F;
       continue;
@@ -115,8 +128,9 @@ Eigen::Vector2d Scan::direction(std::size_t beam) const {
 }
 
 std::ostream& operator<<(std::ostream& out, const Scan& scan) {
-  return out << "Scan(" << scan.stamp() << " s, " << scan.hit_count() << " hits of " << scan.size() << " beams, "
-             << degrees(scan.angle_min_rad()) << " deg by " << degrees(scan.angle_increment_rad()) << " deg)";
+  return out << "Scan(" << scan.stamp() << " s, " << scan.hit_count() << " hits of " << scan.size()
+             << " beams, " << degrees(scan.angle_min_rad()) << " deg by "
+             << degrees(scan.angle_increment_rad()) << " deg)";
 }
 
 }  // namespace beaconless

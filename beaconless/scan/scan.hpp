@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "beaconless/core/result.hpp"
 #include "beaconless/core/stamp.hpp"
@@ -36,13 +37,14 @@ struct ScanGate {
 /// everything that is not a hit is marked. Nobody behind this class needs to test for NaN.
 class Scan {
  public:
-  /// Settles the sensor mess once: the sign of the angle step, the doubled beam at 360°, over-full turns, NaN and ±inf
-  /// (REP 117), ranges outside the limits, a stamp at the end of the sweep.
+  /// Settles the sensor mess once: the sign of the angle step, the doubled beam at 360°, over-full turns, NaN
+  /// and ±inf (REP 117), ranges outside the limits, a stamp at the end of the sweep.
   ///
-  /// Errors: no beams, more than kMaxBeams, an angle step of zero or not finite, limits that exclude everything,
-  /// intensities of another length.
-  /// Cost: one sine and cosine per beam. Source: sensor_msgs/LaserScan, REP 117.
-  /// Differs: a range equal to range_max_m counts as no return, as many drivers use it so.
+  /// Errors: no beams, more than kMaxBeams, an angle step of zero or not finite, limits that exclude
+  /// everything, intensities of another length. Cost: one sine and cosine per beam. Source:
+  /// sensor_msgs/LaserScan, REP 117. Differs: a range equal to range_max_m counts as no return, as many
+  /// drivers use it so, and so does one beyond 100 km where no limit is told. A time per beam that is
+  /// negative, not finite or makes a sweep of over a minute counts as not told.
   static Result<Scan> make(RawScan raw, const ScanGate& gate = {});
 
   static constexpr std::size_t kMaxBeams = 1'000'000;
@@ -54,7 +56,9 @@ class Scan {
 
   double angle_min_rad() const { return angle_min_rad_; }
   double angle_increment_rad() const { return angle_increment_rad_; }  ///< always > 0
-  double angle_rad(std::size_t beam) const { return angle_min_rad_ + static_cast<double>(beam) * angle_increment_rad_; }
+  double angle_rad(std::size_t beam) const {
+    return angle_min_rad_ + static_cast<double>(beam) * angle_increment_rad_;
+  }
   double range_min_m() const { return range_min_m_; }
   double range_max_m() const { return range_max_m_; }  ///< infinity when no limit is known
   double scan_time_s() const { return scan_time_s_; }
@@ -68,7 +72,7 @@ class Scan {
   std::span<const float> ranges_m() const { return ranges_m_; }  ///< 0 where not a hit
   std::span<const float> x_m() const { return x_m_; }            ///< sensor frame; 0 where not a hit
   std::span<const float> y_m() const { return y_m_; }
-  std::span<const float> intensities() const { return intensities_; }  ///< empty, or one a beam
+  std::span<const float> intensities() const { return intensities_; }  ///< empty, or one a beam, all finite
 
   bool is_hit(std::size_t beam) const { return beams_[beam] == Beam::hit; }
   Eigen::Vector2d point(std::size_t beam) const { return {x_m_[beam], y_m_[beam]}; }
