@@ -23,7 +23,7 @@ MAY_INCLUDE = {
     "track": "core geometry features",
     "particle": VALUES + " map",
     "sim": VALUES + " map event pose_estimate",
-    "io": VALUES + " map event pose_estimate",
+    "io": VALUES + " map sim event pose_estimate",
     "localize": VALUES + " features map match track particle event pose_estimate",
     "slam": VALUES + " features map match track particle localize event pose_estimate",
     "report": VALUES + " features map match eval pose_estimate",
