@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/report/run_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "beaconless/report/html.hpp"
+#include "beaconless/report/run_figures.hpp"
+#include "beaconless/report/text.hpp"
+
+namespace beaconless::report {
+namespace {
+
+constexpr std::size_t kMostProblems = 200;
+constexpr double kFewLost_ratio = 0.05;
+constexpr double kStep_m = 0.05;
+constexpr std::array kStatuses{Status::ok, Status::degraded, Status::lost, Status::not_started};
+
+/// How many scans ended in each status; events without a scan are not counted.
+struct Counts {
+  std::array<std::size_t, kStatuses.size()> of{};
+  std::size_t scans = 0;
+
+  explicit Counts(const RunReport& report) {
+    for (const PoseEstimate& estimate : report.estimates)
+      for (std::size_t i = 0; i < kStatuses.size(); ++i)
+        if (estimate.status == kStatuses[i]) {
+          ++of[i];
+          ++scans;
+        }
+  }
+  std::size_t ok() const { return of[0]; }
+  std::size_t lost() const { return of[2]; }
+};
+
+std::string percent(std::size_t part, std::size_t whole) {
+  if (part == 0 || part == whole) return part == 0 ? "0 %" : "100 %";
+  // 99.96 % is not 100 %: rounding must not hide the scan that failed, nor the only one that did not.
+  const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  return fmt::format("{:.1f} %", std::clamp(share, 0.1, 99.9));
+}
+
+std::string length(double value_m) {
+  const LengthUnit unit = LengthUnit::for_size(value_m);
+  return significant(unit.per_m * value_m, 2) + " " + unit.name;
+}
+
+std::string verdict_words(const RunReport& report, const Counts& counts) {
+  if (counts.scans == 0) return "No scan was localized: the recording gave none.";
+  std::string verdict = grouped(counts.ok()) + " of " + grouped(counts.scans) + " scans localized";
+  for (std::size_t i = 1; i < kStatuses.size(); ++i)
+    if (counts.of[i] > 0) verdict += ", " + grouped(counts.of[i]) + " " + words(kStatuses[i]);
+  if (report.error) {
+    verdict += "; position RMSE " + length(report.error->position_m.rmse) + " against the reference";
+    if (report.position_bound_ratio && std::isfinite(*report.position_bound_ratio))
+      verdict += ", " + significant(*report.position_bound_ratio, 2) + " times the Cramér–Rao bound";
+  }
+  return verdict + ".";
+}
+
+Verdict verdict_of(const Counts& counts) {
+  if (counts.scans == 0 ||
+      static_cast<double>(counts.scans - counts.ok()) > 0.5 * static_cast<double>(counts.scans) ||
+      static_cast<double>(counts.lost()) > kFewLost_ratio * static_cast<double>(counts.scans))
+    return Verdict::bad;
+  return counts.ok() == counts.scans ? Verdict::good : Verdict::mixed;
+}
+
+std::string times_the_bound(const std::optional<double>& ratio) {
+  return ratio && std::isfinite(*ratio) ? significant(*ratio, 3) + " times the Cramér–Rao bound" : "";
+}
+
+/// What was driven, by the poses that can be trusted; what is less than a step is noise of a robot that
+/// stands.
+double driven_m(const RunReport& report) {
+  double sum = 0.0;
+  const PoseEstimate* last = nullptr;
+  for (const PoseEstimate& estimate : report.estimates) {
+    if (!estimate.ok() || !estimate.map_from_base.is_finite()) continue;
+    const double step = last == nullptr ? kStep_m : distance_m(last->map_from_base, estimate.map_from_base);
+    if (step < kStep_m) continue;
+    if (last != nullptr) sum += step;
+    last = &estimate;
+  }
+  return sum;
+}
+
+std::vector<Card> cards_of(const RunReport& report, const Counts& counts, const RunClock& clock) {
+  std::vector<Card> cards{{"scans localized", grouped(counts.ok()), "of " + grouped(counts.scans),
+                           percent(counts.ok(), counts.scans)}};
+  if (report.error) {
+    const ErrorTable& error = *report.error;
+    const LengthUnit unit = LengthUnit::for_size(error.position_m.rmse);
+    cards.push_back({"position error, RMSE", significant(unit.per_m * error.position_m.rmse), unit.name,
+                     times_the_bound(report.position_bound_ratio)});
+    cards.push_back({"heading error, RMSE", significant(error.heading_deg.rmse), "deg",
+                     times_the_bound(report.heading_bound_ratio)});
+  }
+  if (!report.update_times_us.empty()) {
+    const double median_us = percentile(report.update_times_us, 0.5);
+    const double p99_us = percentile(report.update_times_us, 0.99);
+    std::string note = "p99 " + significant(1e-3 * p99_us) + " ms";
+    if (counts.scans > 1 && clock.duration_s() > 0.0) {
+      const double period_us = 1e6 * clock.duration_s() / static_cast<double>(counts.scans - 1);
+      note += ", scans come every " + significant(1e-3 * period_us) + " ms";
+    }
+    cards.push_back({"time of an update, median", significant(1e-3 * median_us), "ms", note});
+  }
+  if (!report.estimates.empty())
+    cards.push_back(
+        {"driven", number(driven_m(report), 1), "m", "in " + number(clock.duration_s(), 1) + " s"});
+  return cards;
+}
+
+std::vector<std::string> row_of(const std::string& name, const ErrorRow& row, double factor) {
+  // As many decimals for all as give the RMSE three digits and the median two: a row is read by comparing.
+  const auto decimals_for = [&](double value, int digits) {
+    if (!(value > 0.0) || !std::isfinite(value)) return 0;
+    return digits - 1 - static_cast<int>(std::floor(std::log10(factor * value)));
+  };
+  const int decimals = std::clamp(std::max(decimals_for(row.rmse, 3), decimals_for(row.median, 2)), 0, 6);
+  std::vector<std::string> cells{name};
+  for (const double value : {row.mean, row.rmse, row.sd, row.max, row.min, row.median, row.p95})
+    cells.push_back(std::isfinite(value) ? fmt::format("{:.{}f}", factor * value, decimals) : "–");
+  return cells;
+}
+
+void add_error_table(Page& page, const RunReport& report) {
+  Table table{"Error against the reference", {"", "mean", "RMSE", "SD", "max", "min", "median", "p95"}, {}};
+  const auto add = [&](const ErrorTable& error, const std::string& how) {
+    const LengthUnit unit = LengthUnit::for_size(error.position_m.rmse);
+    table.rows.push_back(row_of("position [" + unit.name + "], " + how, error.position_m, unit.per_m));
+    table.rows.push_back(row_of("heading [deg], " + how, error.heading_deg, 1.0));
+  };
+  if (report.error) add(*report.error, "as it is");
+  if (report.error_aligned) add(*report.error_aligned, "aligned");
+  if (!table.rows.empty()) page.table(table);
+}
+
+void add_status_table(Page& page, const Counts& counts) {
+  Table table{"Status of the scans", {"status", "scans", "share"}, {}};
+  for (std::size_t i = 0; i < kStatuses.size(); ++i)
+    if (counts.of[i] > 0 || kStatuses[i] != Status::not_started)
+      table.rows.push_back({words(kStatuses[i]), grouped(counts.of[i]), percent(counts.of[i], counts.scans)});
+  page.table(table);
+}
+
+void add_figures(Page& page, const RunReport& report, const RunClock& clock) {
+  page.heading("Map");
+  page.figure(draw_run_map(report), "The path in the map frame, one scale for both axes.");
+  if (!report.errors.empty()) {
+    page.heading("Error against the reference");
+    page.begin_row();
+    page.figure(draw_position_error(report, clock), "Distance from the reference position at each scan.");
+    page.figure(draw_heading_error(report, clock), "Angle to the reference heading at each scan.");
+    page.end_row();
+  }
+  if (!report.estimates.empty()) {
+    page.heading("Uncertainty by its own account");
+    page.begin_row();
+    page.figure(draw_position_sigma(report, clock), "Root of the variances of x and y together.");
+    page.figure(draw_heading_sigma(report, clock), "Root of the variance of the heading.");
+    page.end_row();
+    page.heading("Quality and speed");
+    page.begin_row();
+    page.figure(draw_quality(report, clock), "1: every beam ends where the map has a wall.");
+    if (!report.update_times_us.empty())
+      page.figure(draw_update_times(report),
+                  "Time of the localizer's update alone, without reading the recording.");
+    page.end_row();
+  }
+}
+
+void add_notes(Page& page, const RunReport& report) {
+  if (!report.problems.empty()) {
+    page.heading("Notes");
+    const std::size_t shown = std::min(report.problems.size(), kMostProblems);
+    std::vector<std::string> items(report.problems.begin(),
+                                   report.problems.begin() + static_cast<std::ptrdiff_t>(shown));
+    if (shown < report.problems.size())
+      items.push_back("… and " + grouped(report.problems.size() - shown) + " more");
+    page.list(items);
+  }
+  if (!report.command_line.empty() || !report.config_text.empty()) page.heading("How this was made");
+  if (!report.command_line.empty()) page.details("Command", report.command_line, true);
+  if (!report.config_text.empty())
+    page.details("Configuration: every parameter of the run", report.config_text);
+}
+
+std::string subtitle_of(const RunReport& report) {
+  std::string text;
+  const auto add = [&](const char* what, const std::string& name) {
+    if (!name.empty()) text += (text.empty() ? "" : " · ") + std::string(what) + name;
+  };
+  add("method ", report.method);
+  add("map ", report.map_name);
+  add("recording ", report.recording_name);
+  return text;
+}
+
+}  // namespace
+
+std::string html(const RunReport& report) {
+  const Counts counts(report);
+  const RunClock clock(report);
+  Page page(report.title.empty() ? "Localization run" : report.title, subtitle_of(report));
+  page.verdict(verdict_of(counts), verdict_words(report, counts));
+  page.cards(cards_of(report, counts, clock));
+  add_figures(page, report, clock);
+  page.heading("Tables");
+  add_error_table(page, report);
+  add_status_table(page, counts);
+  add_notes(page, report);
+  return page.html();
+}
+
+std::string draw_run_svg(const RunReport& report, const MapViewConfig& config) {
+  return svg_file(draw_run_map(report, config));
+}
+
+}  // namespace beaconless::report
