@@ -6,7 +6,9 @@
 namespace beaconless {
 
 void describe(Fields& fields, HealthConfig& config) {
-  fields("usual_share", config.usual_share, {0.0, 1.0}, "a fit below this share of the usual one is weak");
+  fields("doubt_share", config.doubt_share, {0.0, 1.0},
+         "a fit below this share of the usual one is tried elsewhere too");
+  fields("weak_share", config.weak_share, {0.0, 1.0}, "a fit below this share of the usual one is weak");
   fields("weak_ratio", config.weak_ratio, {0.0, 1.0},
          "a fit that explains less of the scan than this is weak");
   fields("lost_ratio", config.lost_ratio, {0.0, 1.0},
@@ -15,12 +17,12 @@ void describe(Fields& fields, HealthConfig& config) {
   fields("forget", config.forget, {0.0, 1.0}, "how fast what is usual follows the scans");
 }
 
-bool Health::is_poor(double on_map_ratio) const {
-  return on_map_ratio < std::max(config_.weak_ratio, config_.usual_share * usual_ratio_);
+bool Health::is_weak(double on_map_ratio) const {
+  return on_map_ratio < std::max(config_.weak_ratio, config_.weak_share * usual_ratio_);
 }
 
 Status Health::judge(double on_map_ratio) {
-  if (is_poor(on_map_ratio)) {
+  if (is_weak(on_map_ratio)) {
     ++weak_in_a_row_;
     // What was usual elsewhere must not keep a robot from being well here.
     if (on_map_ratio >= config_.weak_ratio) usual_ratio_ += config_.forget * (on_map_ratio - usual_ratio_);

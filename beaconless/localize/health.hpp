@@ -8,11 +8,13 @@ namespace beaconless {
 
 /// When a fit counts as good, weak or lost.
 struct HealthConfig {
-  double usual_share = 0.75;  ///< a fit that explains less than this share of what is usual here is weak
-  double weak_ratio = 0.35;   ///< a fit that explains less of the scan than this is weak in any case
-  double lost_ratio = 0.25;   ///< a fit that explains less than this is no fit
-  int lost_after_scans = 8;   ///< so many weak fits in a row, and the robot is lost
-  double forget = 0.05;       ///< how fast "usual" follows the scans
+  double doubt_share =
+      0.9;  ///< a fit that explains less than this share of what is usual here is tried elsewhere too
+  double weak_share = 0.75;  ///< … and less than this is weak
+  double weak_ratio = 0.35;  ///< a fit that explains less of the scan than this is weak in any case
+  double lost_ratio = 0.25;  ///< a fit that explains less than this is no fit
+  int lost_after_scans = 8;  ///< so many weak fits in a row, and the robot is lost
+  double forget = 0.05;      ///< how fast "usual" follows the scans
 };
 
 void describe(Fields& fields, HealthConfig& config);
@@ -26,8 +28,11 @@ class Health {
  public:
   explicit Health(const HealthConfig& config = {}) : config_(config) {}
 
-  /// True where a fit is too poor to be believed without trying other starts.
-  bool is_poor(double on_map_ratio) const;
+  /// True where a fit is not to be believed without trying other starts.
+  bool is_doubtful(double on_map_ratio) const { return on_map_ratio < config_.doubt_share * usual_ratio_; }
+
+  /// True where a fit explains too little to be trusted by itself.
+  bool is_weak(double on_map_ratio) const;
 
   /// Takes in the scan's final fit; gives ok, degraded or lost.
   Status judge(double on_map_ratio);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/localize/icp_localizer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -8,10 +9,11 @@
 namespace beaconless {
 namespace {
 
-constexpr double kClearlyBetter =
-    0.05;  // of the on-map ratio, before another start is preferred to the prediction
-constexpr double kBigCorrection_m = 0.25;
-constexpr double kBigCorrection_rad = radians(8.0);
+constexpr double kClearlyBetter = 0.05;  // in misfit, before another start is preferred to the prediction
+constexpr double kJumpSigma =
+    3.0;  // of the prediction; a larger correction is a jump, if also larger than the next two
+constexpr double kJump_m = 0.25;
+constexpr double kJump_rad = radians(8.0);
 constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
 
 /// Two independent opinions on the same pose, each with its covariance.
@@ -60,11 +62,16 @@ PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
   // 3. Fit it to the map from there.
   MatchResult match = match_icp(points_, map_, guess, config_.icp, scratch_);
   // 4. Where that fit is hard to believe, fit from other starts too and take the best.
-  if (is_doubtful(match, prediction)) match = try_other_starts(match, guess);
+  if (first_scan_ || !match.usable() || health_.is_doubtful(match.on_map_ratio) || is_jump(match, prediction))
+    match = try_other_starts(match, guess);
   first_scan_ = false;
   // 5. Take the fit as the pose, or go on by the motion alone.
-  last_ = match.usable() ? accept(match, prediction, scan->stamp())
-                         : coast(prediction, scan->stamp(), "too few beams end near a wall of the map");
+  if (!match.usable())
+    last_ = coast(prediction, scan->stamp(), "too few beams end near a wall of the map");
+  else if (health_.is_doubtful(match.on_map_ratio) && is_jump(match, prediction))
+    last_ = coast(prediction, scan->stamp(), "the scan fits nowhere near the predicted pose");
+  else
+    last_ = accept(match, prediction, scan->stamp());
   return last_;
 }
 
@@ -76,11 +83,12 @@ void IcpLocalizer<Index>::load(const Scan& scan) {
 }
 
 template <SurfaceIndex Index>
-bool IcpLocalizer<Index>::is_doubtful(const MatchResult& match, const Prediction& prediction) const {
+bool IcpLocalizer<Index>::is_jump(const MatchResult& match, const Prediction& prediction) const {
   const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
-  return first_scan_ || !match.usable() || health_.is_poor(match.on_map_ratio) ||
-         std::hypot(correction.x_m, correction.y_m) > kBigCorrection_m ||
-         std::abs(correction.theta_rad) > kBigCorrection_rad;
+  const double slack_m = kJumpSigma * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+  const double slack_rad = kJumpSigma * std::sqrt(prediction.covariance(2, 2));
+  return std::hypot(correction.x_m, correction.y_m) > std::max(kJump_m, slack_m) ||
+         std::abs(correction.theta_rad) > std::max(kJump_rad, slack_rad);
 }
 
 template <SurfaceIndex Index>
@@ -95,9 +103,8 @@ MatchResult IcpLocalizer<Index>::try_other_starts(const MatchResult& first, cons
   for (const StartPose& start : search_around(points_, map_, map_from_laser, window)) {
     const MatchResult other = match_icp(points_, map_, start.map_from_laser, config_.icp, scratch_);
     if (!other.usable()) continue;
-    const double margin =
-        &best == &first || best.map_from_laser == first.map_from_laser ? kClearlyBetter : 0.0;
-    if (!best.usable() || other.on_map_ratio > best.on_map_ratio + margin) best = other;
+    const bool is_first = best.map_from_laser == first.map_from_laser;
+    if (!best.usable() || other.misfit < best.misfit - (is_first ? kClearlyBetter : 0.0)) best = other;
   }
   return best;
 }
@@ -134,7 +141,7 @@ PoseEstimate IcpLocalizer<Index>::coast(const Prediction& prediction, Stamp stam
   estimate.stamp = stamp;
   estimate.map_from_base = prediction.map_from_base;
   estimate.covariance = symmetric(prediction.covariance);
-  estimate.status = health_.judge(0.0);
+  estimate.status = health_.judge(0.0) == Status::lost && health_.lost() ? Status::lost : Status::degraded;
   estimate.reason = reason;
   return estimate;
 }

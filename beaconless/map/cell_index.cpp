@@ -10,7 +10,9 @@ namespace beaconless {
 namespace {
 
 constexpr int kNeighbourhood_cells = 3;
-constexpr double kFlatness = 0.06;  // spread across / spread along, squared, below which cells make a line
+constexpr double kThinWall =
+    0.06;  // spread across / spread along, squared, below which surface cells make a line
+constexpr double kThickWall = 0.25;  // the same for all occupied cells, where walls are several cells thick
 constexpr int kFewestOfALine = 4;
 
 bool is_surface(const OccupancyGrid& grid, Cell cell) {
@@ -24,8 +26,8 @@ struct LocalLine {
   Eigen::Vector2d along;   // unit, or zero
 };
 
-/// The principal axis of the surface cells around `cell`, where they make a line.
-LocalLine line_around(const std::vector<bool>& surface, int width, int height, Cell cell) {
+/// The principal axis of the marked cells around `cell`; `along` is zero where they make no line.
+LocalLine line_around(const std::vector<bool>& marked, int width, int height, Cell cell, double flatness) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   int count = 0;
@@ -35,8 +37,8 @@ LocalLine line_around(const std::vector<bool>& surface, int width, int height, C
       const int x = cell.x + dx;
       const int y = cell.y + dy;
       if (dx * dx + dy * dy > r * r + 1 || x < 0 || y < 0 || x >= width || y >= height) continue;
-      if (!surface[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                   static_cast<std::size_t>(x)])
+      if (!marked[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)])
         continue;
       const Eigen::Vector2d d(dx, dy);
       sum += d;
@@ -51,7 +53,7 @@ LocalLine line_around(const std::vector<bool>& surface, int width, int height, C
   const double half_difference = 0.5 * (spread(0, 0) - spread(1, 1));
   const double root = std::hypot(half_difference, spread(0, 1));
   const double middle = 0.5 * spread.trace();
-  if (middle - root > kFlatness * (middle + root)) return {here, Eigen::Vector2d::Zero()};
+  if (middle - root > flatness * (middle + root)) return {here, Eigen::Vector2d::Zero()};
   const double angle = 0.5 * std::atan2(spread(0, 1), half_difference);
   return {here + mean, {std::cos(angle), std::sin(angle)}};
 }
@@ -66,9 +68,11 @@ CellIndex::CellIndex(const OccupancyGrid& grid, double reach_m)
       map_from_grid_(grid.map_from_grid),
       grid_rotation_(grid.map_from_grid.rotation()) {
   std::vector<bool> surface(grid.occupancy_percent.size(), false);
+  std::vector<bool> occupied(grid.occupancy_percent.size(), false);
   std::vector<std::int32_t> seeds;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
+      occupied[grid.index({x, y})] = grid.is_occupied({x, y});
       if (!is_surface(grid, {x, y})) continue;
       surface[grid.index({x, y})] = true;
       seeds.push_back(static_cast<std::int32_t>(grid.index({x, y})));
@@ -76,7 +80,9 @@ CellIndex::CellIndex(const OccupancyGrid& grid, double reach_m)
   }
   surfaces_.reserve(seeds.size());
   for (const std::int32_t seed : seeds) {
-    const LocalLine line = line_around(surface, width_, height_, {seed % width_, seed / width_});
+    const Cell cell{seed % width_, seed / width_};
+    LocalLine line = line_around(surface, width_, height_, cell, kThinWall);
+    if (line.along.isZero()) line = line_around(occupied, width_, height_, cell, kThickWall);
     surfaces_.push_back({(resolution_m_ * line.middle).cast<float>(), line.along.cast<float>()});
   }
   nearest_ = nearest_seeds(width_, height_, seeds, reach_m_ / resolution_m_);

@@ -12,24 +12,40 @@ namespace beaconless {
 namespace {
 
 constexpr double kGaussianMad = 1.4826;  // standard deviation of a Gaussian from its median absolute value
-constexpr double kNear_m = 0.05;         // a closed-form step below both is near enough …
-constexpr double kNear_rad = 0.02;       // … for the linearised step to be believed
+constexpr double kNear_m = 0.01;         // a closed-form step below both is near enough …
+constexpr double kNear_rad = 0.005;      // … for the linearised step to be believed
 constexpr double kOnWall_m = 1e-9;
+constexpr int kPatience = 4;  // iterations without a better fit
 
 using Pair = IcpScratch::Pair;
 
-/// The partner of every point that has one. Returns the sum of |arm|², for the scale of headings.
+/// The partners of a scan's points at one pose, and what they say about the fit.
+struct Pairing {
+  double arm_m = 0.0;  // root mean square distance of the paired points from the laser
+  double on_map_ratio = 0.0;
+  double misfit = 1.0;
+};
+
+/// Finds the partner of every point that has one within `gate_m`.
 template <SurfaceIndex Index>
-double make_pairs(std::span<const Eigen::Vector2d> points, const Index& map, const Pose2& pose,
-                  double max_distance_m, std::vector<Pair>& pairs) {
+Pairing make_pairs(std::span<const Eigen::Vector2d> points, const Index& map, const Pose2& pose,
+                   double gate_m, double on_map_m, std::vector<Pair>& pairs) {
   const Eigen::Matrix2d rotation = pose.rotation();
   const Eigen::Vector2d origin = pose.translation();
   double spread = 0.0;
+  double fit = 0.0;
+  int on_map = 0;
   pairs.clear();
   for (const Eigen::Vector2d& point : points) {
     const Eigen::Vector2d arm = rotation * point;
     const auto surface = map.nearest(origin + arm);
-    if (!surface || surface->distance_m > max_distance_m) continue;
+    if (!surface) continue;
+    if (surface->distance_m <= on_map_m) {
+      const double share = surface->distance_m / on_map_m;
+      fit += 1.0 - share * share;
+      ++on_map;
+    }
+    if (surface->distance_m > gate_m) continue;
     const Eigen::Vector2d residual = origin + arm - surface->point;
     const bool on_wall = surface->distance_m < kOnWall_m;
     pairs.push_back({arm, residual,
@@ -37,7 +53,9 @@ double make_pairs(std::span<const Eigen::Vector2d> points, const Index& map, con
                      surface->distance_m});
     spread += arm.squaredNorm();
   }
-  return spread;
+  const double all = static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  return {std::sqrt(spread / static_cast<double>(std::max<std::size_t>(pairs.size(), 1))) + 1e-3,
+          on_map / all, 1.0 - fit / all};
 }
 
 /// The robust standard deviation of the residuals, never below what noise and map make anyway.
@@ -54,6 +72,8 @@ struct Normal {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();   // Σ w J Jᵀ
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();     // Σ w² r² J Jᵀ
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  // Σ w J r
+  double weight = 0.0;                                 // Σ w
+  double curvature = 0.0;                              // Σ rho''
   RigidFit alignment;                                  // arms onto arms - residuals
 };
 
@@ -69,6 +89,8 @@ Normal weigh(const std::vector<Pair>& pairs, const Loss& loss, double scale_m) {
     normal.hessian += weight * jacobian * jacobian.transpose();
     normal.noise += weight * weight * square * jacobian * jacobian.transpose();
     normal.gradient += weight * pair.distance_m * jacobian;
+    normal.weight += weight;
+    normal.curvature += loss.curvature(square * whiten);
     normal.alignment.add(pair.arm, pair.arm - pair.residual, weight);
   }
   return normal;
@@ -110,62 +132,83 @@ Eigen::Vector3d alignment_step(const RigidFit& alignment) {
   return turn ? Eigen::Vector3d(turn->x_m, turn->y_m, turn->theta_rad) : Eigen::Vector3d::Zero();
 }
 
-double on_map_ratio(const std::vector<Pair>& pairs, std::size_t point_count, double on_map_m) {
-  const auto on_map =
-      std::count_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.distance_m <= on_map_m; });
-  return static_cast<double>(on_map) / static_cast<double>(point_count);
+/// The covariance of a robust estimate from the residuals it met: H⁻¹ (Σ w² r² J Jᵀ) H⁻¹, where H has the
+/// curvature of the loss in the place of its weight. Source: Huber, "Robust Statistics", 1981, 6.3; White, "A
+/// heteroskedasticity-consistent covariance matrix", 1980.
+Eigen::Matrix3d sandwich(const Normal& normal, const Observability& seen, double arm_m, double map_sigma_m) {
+  const double bread = std::clamp(normal.curvature / normal.weight, 0.2, 1.0);
+  const Eigen::Matrix3d inverse = seen.inverse() / bread;
+  Eigen::Matrix3d covariance = inverse * normal.noise * inverse;
+  for (int k = 0; k < seen.weak_count; ++k)
+    covariance += MatchResult::kUnknownSigma * MatchResult::kUnknownSigma * seen.directions.col(k) *
+                  seen.directions.col(k).transpose();
+  // The map's error does not average out over the beams of a wall.
+  covariance.diagonal() += map_sigma_m * map_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
+  return covariance;
+}
+
+MatchResult too_few_pairs(const Pose2& guess, int pair_count, int iterations) {
+  MatchResult none;
+  none.map_from_laser = guess;
+  none.status = MatchStatus::too_few_pairs;
+  none.pair_count = pair_count;
+  none.iterations = iterations;
+  return none;
 }
 
 template <SurfaceIndex Index>
 MatchResult match(std::span<const Eigen::Vector2d> points, const Index& map, const Pose2& guess,
                   const IcpConfig& config, IcpScratch& scratch) {
-  MatchResult result;
-  result.map_from_laser = guess;
-  result.status = MatchStatus::max_iterations;
   const double floor_m = std::hypot(config.sigma_m, config.map_sigma_m);
+  MatchResult best;
+  Pose2 pose = guess;
+  double gate_m = config.max_pair_distance_m;
+  int worse_in_a_row = 0;
 
-  while (result.iterations < config.max_iterations) {
-    const double spread =
-        make_pairs(points, map, result.map_from_laser, config.max_pair_distance_m, scratch.pairs);
-    result.pair_count = static_cast<int>(scratch.pairs.size());
-    if (result.pair_count < config.min_pairs) {
-      MatchResult none;
-      none.map_from_laser = guess;
-      none.status = MatchStatus::too_few_pairs;
-      none.pair_count = result.pair_count;
-      none.iterations = result.iterations;
-      return none;
+  for (int iteration = 1; iteration <= config.max_iterations; ++iteration) {
+    // 1. Pair the points with the map, 2. weigh the pairs by what is usual among them.
+    const Pairing pairing = make_pairs(points, map, pose, gate_m, config.on_map_m, scratch.pairs);
+    const int pair_count = static_cast<int>(scratch.pairs.size());
+    if (pair_count < config.min_pairs) {
+      if (best.status == MatchStatus::not_run) return too_few_pairs(guess, pair_count, iteration);
+      break;
     }
-    ++result.iterations;
-    result.scale_m = robust_scale(scratch.pairs, floor_m, scratch.sorted);
-    const Normal normal = with_loss(config.loss, config.loss_k_sigma, [&](const auto& loss) {
-      return weigh(scratch.pairs, loss, result.scale_m);
-    });
-    const double arm_m = std::sqrt(spread / static_cast<double>(result.pair_count)) + 1e-3;
-    const Observability seen(normal.hessian, arm_m, result.scale_m, config.unobservable_sigma_m);
-    const Eigen::Matrix3d inverse = seen.inverse();
+    const double scale_m = robust_scale(scratch.pairs, floor_m, scratch.sorted);
+    const Normal normal = with_loss(config.loss, config.loss_k_sigma,
+                                    [&](const auto& loss) { return weigh(scratch.pairs, loss, scale_m); });
+    const Observability seen(normal.hessian, pairing.arm_m, scale_m, config.unobservable_sigma_m);
 
+    // 3. Keep the best pose met; where nearest partners alternate, no step is ever the last.
+    if (best.status == MatchStatus::not_run || pairing.misfit < best.misfit) {
+      worse_in_a_row = 0;
+      best.map_from_laser = pose;
+      best.covariance = sandwich(normal, seen, pairing.arm_m, config.map_sigma_m);
+      best.status = MatchStatus::max_iterations;
+      best.rank = 3 - seen.weak_count;
+      best.weak_direction = seen.directions.col(0).normalized();
+      best.pair_count = pair_count;
+      best.scale_m = scale_m;
+      best.on_map_ratio = pairing.on_map_ratio;
+      best.misfit = pairing.misfit;
+    } else if (++worse_in_a_row >= kPatience) {
+      best.status = MatchStatus::converged;
+      break;
+    }
+    best.iterations = iteration;
+
+    // 4. Step: the closed form far away, Gauss-Newton near by.
     Eigen::Vector3d step = alignment_step(normal.alignment);
     const bool near = step.head<2>().norm() < kNear_m && std::abs(step.z()) < kNear_rad;
-    if (near && config.solver == IcpSolver::mixed) step = -inverse * normal.gradient;
-    result.map_from_laser = moved(result.map_from_laser, step);
-
-    result.rank = 3 - seen.weak_count;
-    result.weak_direction = seen.directions.col(0).normalized();
-    result.covariance = inverse * normal.noise * inverse;
-    for (int k = 0; k < seen.weak_count; ++k)
-      result.covariance += MatchResult::kUnknownSigma * MatchResult::kUnknownSigma * seen.directions.col(k) *
-                           seen.directions.col(k).transpose();
-    // The map's error does not average out over the beams of a wall.
-    const double map_variance = config.map_sigma_m * config.map_sigma_m;
-    result.covariance.diagonal() += map_variance * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
+    if (near && config.solver == IcpSolver::mixed) step = -seen.inverse() * normal.gradient;
+    if (near) gate_m = std::min(config.max_pair_distance_m, config.gate_sigma * scale_m);
+    pose = moved(pose, step);
     if (step.head<2>().norm() < config.converged_m && std::abs(step.z()) < config.converged_rad) {
-      result.status = MatchStatus::converged;
+      best.map_from_laser = pose;
+      best.status = MatchStatus::converged;
       break;
     }
   }
-  result.on_map_ratio = on_map_ratio(scratch.pairs, points.size(), config.on_map_m);
-  return result;
+  return best;
 }
 
 }  // namespace
@@ -182,6 +225,8 @@ void describe(Fields& fields, IcpConfig& config) {
          "how a step is found: the closed form alone, or Gauss-Newton once near");
   fields("max_pair_distance_m", config.max_pair_distance_m, {0.01, 10.0},
          "points further from every wall are left out");
+  fields("gate_sigma", config.gate_sigma, {2.0, 1000.0},
+         "once near, pairs this many robust sigmas apart are dropped");
   fields("on_map_m", config.on_map_m, {0.001, 1.0},
          "a point this near to a wall counts as explained by the map");
   fields("max_iterations", config.max_iterations, {1, 1000}, "most iterations of one match");

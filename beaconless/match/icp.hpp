@@ -27,8 +27,9 @@ struct IcpConfig {
   LossKind loss = LossKind::huber;
   double loss_k_sigma = 0.0;  ///< scale of the loss in sigmas; 0: 95 % efficiency
   IcpSolver solver = IcpSolver::mixed;
-  double max_pair_distance_m = 1.0;  ///< pairs further apart are not made
-  double on_map_m = 0.10;            ///< a point this near to a wall counts as explained by the map
+  double max_pair_distance_m = 0.6;  ///< pairs further apart are not made
+  double gate_sigma = 6.0;  ///< once near, pairs further apart than this many robust sigmas are dropped
+  double on_map_m = 0.10;   ///< a point this near to a wall counts as explained by the map
   int max_iterations = 60;
   double converged_m = 1e-5;           ///< stop when a step moves the laser less than this …
   double converged_rad = 1e-6;         ///< … and turns it less than this

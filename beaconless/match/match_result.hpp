@@ -13,7 +13,7 @@ namespace beaconless {
 enum class MatchStatus {
   not_run,
   converged,
-  max_iterations,  ///< still moving when told to stop; the pose is the last one
+  max_iterations,  ///< still moving when told to stop; the pose is the best one met
   too_few_pairs,   ///< nothing to hold on to; the pose is the guess
 };
 
@@ -48,6 +48,7 @@ struct MatchResult {
   int pair_count = 0;
   double scale_m = 0.0;       ///< the robust standard deviation of residuals that weights were made with
   double on_map_ratio = 0.0;  ///< share of the scan's points that lie on the map (see IcpConfig::on_map_m)
+  double misfit = 1.0;  ///< mean squared distance to the map, in units of on_map_m and at most 1 a point
 
   bool usable() const { return status == MatchStatus::converged || status == MatchStatus::max_iterations; }
 };

@@ -18,6 +18,7 @@ template <class Loss>
 concept RobustLoss = requires(const Loss& loss, double squared) {
   { loss.rho(squared) } -> std::same_as<double>;
   { loss.weight(squared) } -> std::same_as<double>;
+  { loss.curvature(squared) } -> std::same_as<double>;
   { Loss::kEfficient95 } -> std::convertible_to<double>;
 };
 
@@ -31,6 +32,7 @@ struct Huber {
     return squared <= k * k ? 0.5 * squared : k * std::sqrt(squared) - 0.5 * k * k;
   }
   double weight(double squared) const { return squared <= k * k ? 1.0 : k / std::sqrt(squared); }
+  double curvature(double squared) const { return squared <= k * k ? 1.0 : 0.0; }
 };
 
 /// Logarithmic: influence falls off slowly.
@@ -40,6 +42,9 @@ struct Cauchy {
 
   double rho(double squared) const { return 0.5 * k * k * std::log1p(squared / (k * k)); }
   double weight(double squared) const { return 1.0 / (1.0 + squared / (k * k)); }
+  double curvature(double squared) const {
+    return (1.0 - squared / (k * k)) * weight(squared) * weight(squared);
+  }
 };
 
 /// Bi-weight: beyond k nothing counts. Needs a start that is nearly right.
@@ -55,6 +60,10 @@ struct Tukey {
     const double inside = std::max(0.0, 1.0 - squared / (k * k));
     return inside * inside;
   }
+  double curvature(double squared) const {
+    const double inside = std::max(0.0, 1.0 - squared / (k * k));
+    return inside * (inside - 4.0 * squared / (k * k));
+  }
 };
 
 /// Gaussian: like Tukey, smooth to infinity.
@@ -64,6 +73,7 @@ struct Welsch {
 
   double rho(double squared) const { return -0.5 * k * k * std::expm1(-squared / (k * k)); }
   double weight(double squared) const { return std::exp(-squared / (k * k)); }
+  double curvature(double squared) const { return (1.0 - 2.0 * squared / (k * k)) * weight(squared); }
 };
 
 /// Rational: between Cauchy and Welsch.
@@ -75,6 +85,10 @@ struct GemanMcClure {
   double weight(double squared) const {
     const double ratio = k * k / (k * k + squared);
     return ratio * ratio;
+  }
+  double curvature(double squared) const {
+    const double ratio = k * k / (k * k + squared);
+    return ratio * ratio * (1.0 - 4.0 * squared / (k * k + squared));
   }
 };
 
