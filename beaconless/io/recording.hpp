@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -23,8 +24,9 @@ struct Problem {
 
 /// How to open a recording.
 struct RecordingOptions {
-  std::string topic;       ///< the scans to take: a topic of a bag, a keyword of a log; empty: the only one there is
-  ScanGate gate;           ///< what Scan::make may assume
+  std::string
+      topic;      ///< the scans to take: a topic of a bag, a keyword of a log; empty: the only one there is
+  ScanGate gate;  ///< what Scan::make may assume
   std::function<void(const Problem&)> on_problem;  ///< called for each problem, on every pass; may be empty
 };
 
@@ -44,17 +46,21 @@ class EventStream {
 
   /// The next event; nothing at the end.
   virtual std::optional<Event> next() = 0;
+
+  /// How many records this pass had to pass over so far.
+  virtual std::uint64_t skipped() const { return 0; }
 };
 
 /// A recording of a robot: a description of the file, and an iterable of its events.
 ///
-/// Each `begin()` starts a new pass over the file and reads as it goes, so that memory does not grow with the file.
-/// Copies are cheap and share nothing that changes.
+/// Each `begin()` starts a new pass over the file and reads as it goes, so that memory does not grow with the
+/// file. Copies are cheap and share nothing that changes.
 class Recording {
  public:
   using Opener = std::function<std::unique_ptr<EventStream>()>;
 
-  Recording(std::string path, std::string format, std::string scan_topic, std::vector<Topic> topics, Opener open_pass)
+  Recording(std::string path, std::string format, std::string scan_topic, std::vector<Topic> topics,
+            Opener open_pass)
       : path_(std::move(path)),
         format_(std::move(format)),
         scan_topic_(std::move(scan_topic)),
@@ -62,9 +68,11 @@ class Recording {
         open_pass_(std::move(open_pass)) {}
 
   const std::string& path() const { return path_; }
-  const std::string& format() const { return format_; }          ///< "CARMEN log", "ROS 1 bag 2.0", "rostopic echo"
-  const std::string& scan_topic() const { return scan_topic_; }  ///< the one that is read; empty when there is none
-  const std::vector<Topic>& topics() const { return topics_; }   ///< all that were found, also those not read
+  const std::string& format() const { return format_; }  ///< "CARMEN log", "ROS 1 bag 2.0", "rostopic echo"
+  const std::string& scan_topic() const {
+    return scan_topic_;
+  }  ///< the one that is read; empty when there is none
+  const std::vector<Topic>& topics() const { return topics_; }  ///< all that were found, also those not read
 
   /// A new pass, for those who want to pull events themselves.
   std::unique_ptr<EventStream> open_pass() const { return open_pass_(); }
@@ -104,8 +112,9 @@ class Recording {
 
 /// Opens a recording of any known format; the content decides, not the name.
 ///
-/// Errors (with path, line or byte, reason and what to do): no such file, empty, unknown format, a format this build
-/// cannot read, a topic that is not there (all are listed), several scan topics and none chosen (all are listed).
+/// Errors (with path, line or byte, reason and what to do): no such file, empty, unknown format, a format
+/// this build cannot read, a topic that is not there (all are listed), several scan topics and none chosen
+/// (all are listed).
 Result<Recording> open_recording(const std::string& path, const RecordingOptions& options = {});
 
 }  // namespace beaconless::io
