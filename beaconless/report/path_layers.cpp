@@ -61,20 +61,20 @@ void draw_estimates(Picture& picture, const WorldView& view, std::span<const Pos
   const std::size_t stride = 1 + estimates.size() / kMostPathPoints;
   Eigen::Vector2d last = kNowhere;
   std::size_t pen = kShown.size();  // whose line goes on from `last`
-  std::size_t shown = 0;            // worst status drawn at `last`
-  std::size_t worst = 0;            // met since
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
+  std::size_t worst = 0;            // status met since; a skipped pose still colours the next piece
+  std::size_t end = estimates.size();
+  while (end > 0 && !is_shown(estimates[end - 1])) --end;
+  for (std::size_t i = 0; i < end; ++i) {
     if (!is_shown(estimates[i])) continue;
     worst = std::max(worst, severity(estimates[i].status));
     const Eigen::Vector2d at = view(estimates[i].map_from_base.translation());
     const bool first = last == kNowhere;
-    const bool near = (at - last).norm() < kSamePoint_px;
-    const bool final = i + 1 == estimates.size();
-    if (!first && !final && worst <= shown && (near || i % stride != 0)) continue;
+    const bool skip = (at - last).norm() < kSamePoint_px || i % stride != 0;
+    const bool final = i + 1 == end;
+    if (skip && !first && !final) continue;
     if (pen != worst) lines[worst].move_to(first ? at : last);
     lines[worst].line_to(at);
     pen = worst;
-    shown = near ? std::max(shown, worst) : worst;
     worst = 0;
     last = at;
   }

@@ -80,6 +80,13 @@ TEST(MapView, NamesTheStatusesThatOccur) {
   EXPECT_THAT(file, Not(HasSubstr("estimate, lost")));
 }
 
+TEST(MapView, ShowsHowTheRunEndedEvenOfARobotThatStoodStill) {
+  const std::vector<PoseEstimate> estimates{estimate_at(2, 1), estimate_at(2, 1),
+                                            estimate_at(2, 1, Status::lost),
+                                            estimate_at(2, 1, Status::not_a_scan)};
+  EXPECT_THAT(svg_file(draw_map(room(), estimates)), HasSubstr("estimate, lost"));
+}
+
 TEST(MapView, CountsPosesOutsideAndKeepsTheBuildingLarge) {
   const std::vector<PoseEstimate> estimates{estimate_at(1, 1), estimate_at(5000, 1, Status::lost)};
   EXPECT_THAT(draw_map(room(), estimates).note, HasSubstr("1 of 2 poses lie outside"));
