@@ -15,6 +15,8 @@ constexpr double kSpread_ratio = 50.0;     // of largest to median, above which 
 constexpr double kLargestSigma_m = 100.0;  // more says "nothing is known"
 constexpr double kLargestSigma_deg = 180.0;
 
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
 const FloorPlan kNoWalls;
 
 bool spreads(std::span<const double> values) {
@@ -39,30 +41,31 @@ void choose_scale(Plot& plot) {
   plot.y_title += ", log scale";
 }
 
-template <class Value>
-Series error_series(const std::vector<PoseError>& errors, const RunClock& clock, Value value) {
-  Series series;
-  for (const PoseError& error : errors) {
-    series.x.push_back(clock(error.stamp));
-    series.y.push_back(value(error));
-  }
-  return series;
-}
-
-template <class Value>
-Plot error_plot(const RunReport& report, const RunClock& clock, const std::string& y_title, Value value) {
+/// One value an error, and one a bound where there are bounds; a gap where a scan has none.
+template <class OfError, class OfBound>
+Plot error_plot(const RunReport& report, const RunClock& clock, const std::string& y_title, OfError of_error,
+                OfBound of_bound) {
   Plot plot = over_time(report, clock, y_title);
-  plot.series.push_back(error_series(report.errors, clock, value));
-  plot.series.back().name = "error";
-  plot.series.back().mark = Mark::thin;
-  if (!report.bounds.empty()) {
-    plot.series.push_back(error_series(report.bounds, clock, value));
-    plot.series.back().name = "Cramér–Rao bound, 1 sigma";
-    plot.series.back().colour = Colour::ink;
+  Series error{"error", Colour::blue, Mark::thin, {}, {}};
+  Series bound{"Cramér–Rao bound, 1 sigma", Colour::ink, Mark::line, {}, {}};
+  for (std::size_t i = 0; i < report.errors.size(); ++i) {
+    const double at = clock(report.errors[i].stamp);
+    error.x.push_back(at);
+    error.y.push_back(of_error(report.errors[i]));
+    bound.x.push_back(at);
+    bound.y.push_back(i < report.bounds.size() && report.bounds[i] ? of_bound(*report.bounds[i]) : kNothing);
   }
+  plot.series.push_back(std::move(error));
+  if (!report.bounds.empty()) plot.series.push_back(std::move(bound));
   choose_scale(plot);
   return plot;
 }
+
+double position_sigma_m(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(covariance(0, 0) + covariance(1, 1));
+}
+
+double heading_sigma_deg(const Eigen::Matrix3d& covariance) { return degrees(std::sqrt(covariance(2, 2))); }
 
 /// One value an estimate that knows something; a gap where it does not.
 template <class Value>
@@ -85,9 +88,7 @@ Picture draw_with_gaps(const Plot& plot, const std::string& limit) {
   return picture;
 }
 
-double unless_above(double value, double limit) {
-  return value <= limit ? value : std::numeric_limits<double>::quiet_NaN();
-}
+double unless_above(double value, double limit) { return value <= limit ? value : kNothing; }
 
 }  // namespace
 
@@ -97,21 +98,24 @@ Picture draw_run_map(const RunReport& report, const MapViewConfig& config) {
 }
 
 Picture draw_position_error(const RunReport& report, const RunClock& clock) {
-  std::vector<double> values;
-  for (const PoseError& error : report.errors) values.push_back(error.position_m);
-  const LengthUnit unit = LengthUnit::for_axis(values);
-  return draw_plot(error_plot(report, clock, "position error [" + unit.name + "]",
-                              [&](const PoseError& e) { return unit.per_m * e.position_m; }));
+  std::vector<double> values_m;
+  for (const eval::PoseError& error : report.errors) values_m.push_back(error.position_m());
+  const LengthUnit unit = LengthUnit::for_axis(values_m);
+  return draw_plot(error_plot(
+      report, clock, "position error [" + unit.name + "]",
+      [&](const eval::PoseError& e) { return unit.per_m * e.position_m(); },
+      [&](const Eigen::Matrix3d& bound) { return unit.per_m * position_sigma_m(bound); }));
 }
 
 Picture draw_heading_error(const RunReport& report, const RunClock& clock) {
-  return draw_plot(
-      error_plot(report, clock, "heading error [deg]", [](const PoseError& e) { return e.heading_deg; }));
+  return draw_plot(error_plot(
+      report, clock, "heading error [deg]",
+      [](const eval::PoseError& e) { return std::abs(degrees(e.heading_rad)); }, heading_sigma_deg));
 }
 
 Picture draw_position_sigma(const RunReport& report, const RunClock& clock) {
   Series series = estimate_series(report, clock, [](const PoseEstimate& e) {
-    return unless_above(std::sqrt(e.covariance(0, 0) + e.covariance(1, 1)), kLargestSigma_m);
+    return unless_above(position_sigma_m(e.covariance), kLargestSigma_m);
   });
   const LengthUnit unit = LengthUnit::for_axis(series.y);
   for (double& value : series.y) value *= unit.per_m;
@@ -124,7 +128,7 @@ Picture draw_position_sigma(const RunReport& report, const RunClock& clock) {
 Picture draw_heading_sigma(const RunReport& report, const RunClock& clock) {
   Plot plot = over_time(report, clock, "heading, 1 sigma [deg]");
   plot.series.push_back(estimate_series(report, clock, [](const PoseEstimate& e) {
-    return unless_above(degrees(std::sqrt(e.covariance(2, 2))), kLargestSigma_deg);
+    return unless_above(heading_sigma_deg(e.covariance), kLargestSigma_deg);
   }));
   choose_scale(plot);
   return draw_with_gaps(plot, "180 deg");

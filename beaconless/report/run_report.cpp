@@ -55,8 +55,8 @@ std::string verdict_words(const RunReport& report, const Counts& counts) {
     if (counts.of[i] > 0) verdict += ", " + grouped(counts.of[i]) + " " + words(kStatuses[i]);
   if (report.error) {
     verdict += "; position RMSE " + length(report.error->position_m.rmse) + " against the reference";
-    if (report.position_bound_ratio && std::isfinite(*report.position_bound_ratio))
-      verdict += ", " + significant(*report.position_bound_ratio, 2) + " times the Cramér–Rao bound";
+    if (report.bound_ratio && std::isfinite(report.bound_ratio->position))
+      verdict += ", " + significant(report.bound_ratio->position, 2) + " times the Cramér–Rao bound";
   }
   return verdict + ".";
 }
@@ -69,8 +69,9 @@ Verdict verdict_of(const Counts& counts) {
   return counts.ok() == counts.scans ? Verdict::good : Verdict::mixed;
 }
 
-std::string times_the_bound(const std::optional<double>& ratio) {
-  return ratio && std::isfinite(*ratio) ? significant(*ratio, 3) + " times the Cramér–Rao bound" : "";
+std::string times_the_bound(const RunReport& report, double eval::CrbRatio::*which) {
+  if (!report.bound_ratio || !std::isfinite((*report.bound_ratio).*which)) return "";
+  return significant((*report.bound_ratio).*which) + " times the Cramér–Rao bound";
 }
 
 /// What was driven, by the poses that can be trusted; what is less than a step is noise of a robot that
@@ -92,12 +93,12 @@ std::vector<Card> cards_of(const RunReport& report, const Counts& counts, const 
   std::vector<Card> cards{{"scans localized", grouped(counts.ok()), "of " + grouped(counts.scans),
                            percent(counts.ok(), counts.scans)}};
   if (report.error) {
-    const ErrorTable& error = *report.error;
+    const eval::ErrorTable& error = *report.error;
     const LengthUnit unit = LengthUnit::for_size(error.position_m.rmse);
     cards.push_back({"position error, RMSE", significant(unit.per_m * error.position_m.rmse), unit.name,
-                     times_the_bound(report.position_bound_ratio)});
+                     times_the_bound(report, &eval::CrbRatio::position)});
     cards.push_back({"heading error, RMSE", significant(error.heading_deg.rmse), "deg",
-                     times_the_bound(report.heading_bound_ratio)});
+                     times_the_bound(report, &eval::CrbRatio::heading)});
   }
   if (!report.update_times_us.empty()) {
     const double median_us = percentile(report.update_times_us, 0.5);
@@ -115,7 +116,7 @@ std::vector<Card> cards_of(const RunReport& report, const Counts& counts, const 
   return cards;
 }
 
-std::vector<std::string> row_of(const std::string& name, const ErrorRow& row, double factor) {
+std::vector<std::string> row_of(const std::string& name, const eval::Statistics& row, double factor) {
   // As many decimals for all as give the RMSE three digits and the median two: a row is read by comparing.
   const auto decimals_for = [&](double value, int digits) {
     if (!(value > 0.0) || !std::isfinite(value)) return 0;
@@ -130,7 +131,7 @@ std::vector<std::string> row_of(const std::string& name, const ErrorRow& row, do
 
 void add_error_table(Page& page, const RunReport& report) {
   Table table{"Error against the reference", {"", "mean", "RMSE", "SD", "max", "min", "median", "p95"}, {}};
-  const auto add = [&](const ErrorTable& error, const std::string& how) {
+  const auto add = [&](const eval::ErrorTable& error, const std::string& how) {
     const LengthUnit unit = LengthUnit::for_size(error.position_m.rmse);
     table.rows.push_back(row_of("position [" + unit.name + "], " + how, error.position_m, unit.per_m));
     table.rows.push_back(row_of("heading [deg], " + how, error.heading_deg, 1.0));

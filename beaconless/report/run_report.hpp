@@ -6,36 +6,16 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "beaconless/eval/crb.hpp"
+#include "beaconless/eval/errors.hpp"
 #include "beaconless/geometry/trajectory.hpp"
 #include "beaconless/map/map.hpp"
 #include "beaconless/pose_estimate.hpp"
 #include "beaconless/report/map_view.hpp"
 
 namespace beaconless::report {
-
-/// How far a scan's estimate is from the reference; or, as a bound, how far one sigma of the best estimator
-/// would be.
-struct PoseError {
-  Stamp stamp;
-  double position_m = 0.0;
-  double heading_deg = 0.0;  ///< absolute
-};
-
-/// One row of an error table.
-struct ErrorRow {
-  double mean = 0.0;
-  double rmse = 0.0;
-  double sd = 0.0;
-  double max = 0.0;
-  double min = 0.0;
-  double median = 0.0;
-  double p95 = 0.0;
-};
-
-struct ErrorTable {
-  ErrorRow position_m;
-  ErrorRow heading_deg;
-};
 
 /// Everything that is told about a run. What is empty is left out of the page.
 struct RunReport {
@@ -51,12 +31,11 @@ struct RunReport {
   std::vector<PlacedScan> scans;        ///< to lay over the map; a dozen is plenty
   std::vector<double> update_times_us;  ///< of `update()` alone, one a scan
 
-  std::vector<PoseError> errors;               ///< against the reference
-  std::vector<PoseError> bounds;               ///< the Cramér–Rao bound of the same or other scans
-  std::optional<ErrorTable> error;             ///< as it is
-  std::optional<ErrorTable> error_aligned;     ///< after rigid alignment
-  std::optional<double> position_bound_ratio;  ///< RMSE over bound
-  std::optional<double> heading_bound_ratio;
+  std::vector<eval::PoseError> errors;                 ///< against the reference
+  std::vector<std::optional<Eigen::Matrix3d>> bounds;  ///< Cramér–Rao: one for each error, or empty
+  std::optional<eval::ErrorTable> error;               ///< as it is
+  std::optional<eval::ErrorTable> error_aligned;       ///< after rigid alignment
+  std::optional<eval::CrbRatio> bound_ratio;           ///< RMSE over bound
 
   std::string config_text;
   std::vector<std::string> problems;  ///< what readers and localizer complained about, one line each

@@ -40,7 +40,7 @@ RunClock::RunClock(const RunReport& report) {
   };
   for (const PoseEstimate& estimate : report.estimates) include(estimate.stamp);
   if (!any)
-    for (const PoseError& error : report.errors) include(error.stamp);
+    for (const eval::PoseError& error : report.errors) include(error.stamp);
   duration_s_ = end_s - start_s_;
   if (duration_s_ >= kHoursFrom_s) {
     unit_s_ = 3600.0;

@@ -37,8 +37,12 @@ RunReport run_of(std::size_t scans, Lost lost) {
     estimate.quality = rng.uniform();
     report.estimates.push_back(estimate);
     report.reference->add(estimate.stamp, estimate.map_from_base);
-    report.errors.push_back({estimate.stamp, std::abs(rng.normal(7e-4)), std::abs(rng.normal(0.01))});
-    report.bounds.push_back({estimate.stamp, 6e-4, 0.01});
+    eval::PoseError error;
+    error.stamp = estimate.stamp;
+    error.x_m = rng.normal(7e-4);
+    error.heading_rad = rng.normal(1e-4);
+    report.errors.push_back(error);
+    report.bounds.emplace_back(Eigen::Vector3d(2e-7, 2e-7, 1e-8).asDiagonal());
     report.update_times_us.push_back(rng.uniform(1000.0, 3000.0));
   }
   return report;
@@ -48,9 +52,9 @@ bool never(std::size_t) { return false; }
 
 TEST(RunReport, SaysTheVerdictInWords) {
   RunReport report = run_of(400, never);
-  report.error = ErrorTable{};
+  report.error = eval::ErrorTable{};
   report.error->position_m.rmse = 0.0007;
-  report.position_bound_ratio = 1.1;
+  report.bound_ratio = eval::CrbRatio{1.1, 1.2};
   EXPECT_THAT(html(report),
               HasSubstr("400 of 400 scans localized; position RMSE 0.70 mm against the reference, 1.1 "
                         "times the Cramér–Rao bound."));
@@ -99,12 +103,13 @@ TEST(RunReport, HoldsForEverythingMissingAndEverythingBroken) {
     report.estimates[i].covariance.setConstant(i % 3 == 0 ? kNan : -1.0);
     report.estimates[i].map_from_base.x_m = kNan;
     report.estimates[i].quality = kNan;
-    report.errors[i].position_m = kNan;
+    report.errors[i].x_m = kNan;
+    if (i % 2 == 0) report.bounds[i].reset();
     report.update_times_us[i] = i % 2 == 0 ? kNan : -std::numeric_limits<double>::infinity();
   }
-  report.error = ErrorTable{};
+  report.error = eval::ErrorTable{};
   report.error->position_m.rmse = kNan;
-  report.position_bound_ratio = kNan;
+  report.bound_ratio = eval::CrbRatio{kNan, kNan};
   const std::string page = html(report);
   EXPECT_EQ(xml_fault(page), "");
   for (const char* word : {"\"nan", ">nan", "-nan", "inf\"", ">inf", "NaN"})
