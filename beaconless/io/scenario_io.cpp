@@ -22,11 +22,11 @@ std::string joined(const Words& words, const char* between) {
   return text;
 }
 
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers_of(const YamlNode& list) {
-  std::array<double, count> numbers{};
-  if (list.kind != YamlNode::Kind::list || list.size() != count) return std::nullopt;
-  for (std::size_t i = 0; i < count; ++i) {
+template <std::size_t Count>
+std::optional<std::array<double, Count>> numbers_of(const YamlNode& list) {
+  std::array<double, Count> numbers{};
+  if (list.kind != YamlNode::Kind::list || list.size() != Count) return std::nullopt;
+  for (std::size_t i = 0; i < Count; ++i) {
     const auto number = list.items[i].number();
     if (!number) return std::nullopt;
     numbers[i] = *number;

@@ -72,9 +72,12 @@ TEST(FisherInformation, CorridorTellsNothingAlongIt) {
 
 TEST(FisherInformation, KnownRooms) {
   struct Known {
-    double width_m, depth_m;
+    double width_m = 0.0;
+    double depth_m = 0.0;
     Pose2 pose;
-    double x_mm, y_mm, theta_deg;  // as printed: correct to half of the last digit
+    double x_mm = 0.0;  // as printed: correct to half of the last digit
+    double y_mm = 0.0;
+    double theta_deg = 0.0;
   };
   // Made by an independent program for the UTM-30LX pattern at 10 mm.
   for (const Known& k : {Known{4, 4, {2, 2, 0}, 0.466, 0.330, 0.0134},
@@ -107,14 +110,12 @@ TEST(FisherInformation, IsThatOfNumericDerivatives) {
       const double heading = pose.theta_rad + sensor.angles_rad[0];
       return *caster.cast(pose.translation(), {std::cos(heading), std::sin(heading)}, 30.0);
     };
-    const Pose2 nudged[3][2] = {
-        {{at.x_m + kStep, at.y_m, at.theta_rad}, {at.x_m - kStep, at.y_m, at.theta_rad}},
-        {{at.x_m, at.y_m + kStep, at.theta_rad}, {at.x_m, at.y_m - kStep, at.theta_rad}},
-        {{at.x_m, at.y_m, at.theta_rad + kStep}, {at.x_m, at.y_m, at.theta_rad - kStep}}};
     Eigen::Vector3d slope;
     bool one_wall = cast(at).cos_incidence > 0.05;
     for (int i = 0; i < 3; ++i) {
-      const auto [plus, minus] = std::pair{cast(nudged[i][0]), cast(nudged[i][1])};
+      const Eigen::Vector3d nudge = kStep * Eigen::Vector3d::Unit(i);
+      const auto plus = cast({at.x_m + nudge.x(), at.y_m + nudge.y(), at.theta_rad + nudge.z()});
+      const auto minus = cast({at.x_m - nudge.x(), at.y_m - nudge.y(), at.theta_rad - nudge.z()});
       one_wall = one_wall && plus.segment == cast(at).segment && minus.segment == plus.segment;
       slope[i] = (plus.range_m - minus.range_m) / (2.0 * kStep);
     }

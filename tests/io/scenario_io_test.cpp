@@ -111,13 +111,14 @@ TEST(Scenarios, TheEllipseReturnsToItsStartAndThePersonCrossesIt) {
 
 class ReadScenario : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = std::filesystem::path(testing::TempDir()) /
-                 ("scenario_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  ReadScenario()
+      : directory_(
+            std::filesystem::path(testing::TempDir()) /
+            ("scenario_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     std::filesystem::create_directories(directory_);
     std::ofstream(directory_ / "plan.yaml") << "walls:\n  - [[0, 0], [4, 0], [4, 3], [0, 3], [0, 0]]\n";
   }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
+  ~ReadScenario() override { std::filesystem::remove_all(directory_); }
 
   Result<sim::Scenario> read(const std::string& text) {
     std::ofstream(directory_ / "s.yaml") << text;
@@ -133,6 +134,7 @@ class ReadScenario : public testing::Test {
     return message;
   }
 
+ private:
   std::filesystem::path directory_;
 };
 

@@ -113,7 +113,7 @@ TEST(Lidar, DropoutsHaveTheirShareAndLeaveOtherBeamsAlone) {
     else
       EXPECT_EQ(holed.ranges_m[i], whole.ranges_m[i]);
   }
-  const double count = static_cast<double>(whole.ranges_m.size());
+  const auto count = static_cast<double>(whole.ranges_m.size());
   EXPECT_NEAR(dropped / count, 0.2, 4.0 * std::sqrt(0.2 * 0.8 / count));
 }
 
