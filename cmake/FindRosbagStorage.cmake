@@ -29,7 +29,7 @@ find_package_handle_standard_args(RosbagStorage REQUIRED_VARS ${rosbag_storage_n
 mark_as_advanced(${rosbag_storage_needed})
 
 if(RosbagStorage_FOUND AND NOT TARGET RosbagStorage::RosbagStorage)
-  add_library(RosbagStorage::RosbagStorage INTERFACE IMPORTED)
+  add_library(RosbagStorage::RosbagStorage INTERFACE IMPORTED GLOBAL)
   target_include_directories(RosbagStorage::RosbagStorage SYSTEM INTERFACE ${rosbag_storage_includes})
   target_link_libraries(RosbagStorage::RosbagStorage INTERFACE
     ${RosbagStorage_rosbag_storage_LIBRARY} ${RosbagStorage_roscpp_serialization_LIBRARY}

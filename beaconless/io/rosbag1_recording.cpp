@@ -148,7 +148,7 @@ Result<Recording> open_rosbag1(const std::string& path, const RecordingOptions& 
     if (topic.type == kLaserScan) scan_topics.push_back(topics.back());
     if (is_used(topics.back())) read_topics.push_back(topic.name);
   }
-  const auto chosen = choose_scan_topic(path, options.topic, scan_topics);
+  const auto chosen = choose_scan_topic(path, options, scan_topics);
   if (!chosen) return chosen.error();
   if (!chosen->empty()) read_topics.push_back(*chosen);
   const auto open_bag = [path, read_topics, broken = std::move(survey.broken)] {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+// Plain C++17: the messages of ROS 1 are no C++20.
+namespace beaconless {
+
+struct BagScan {
+  std::int64_t stamp_ns = 0;
+  std::string frame_id;
+  float angle_min_rad = 0.0F, angle_increment_rad = 0.0F, time_increment_s = 0.0F, scan_time_s = 0.0F;
+  float range_min_m = 0.0F, range_max_m = 0.0F;
+  std::vector<float> ranges_m, intensities;
+};
+
+struct BagPose {
+  std::int64_t stamp_ns = 0;
+  double x_m = 0.0, y_m = 0.0, theta_rad = 0.0;
+};
+
+enum class BagCompression { none, bz2, lz4 };
+
+/// What a robot records, written by librosbag and the messages' own serializers.
+struct BagContent {
+  std::vector<BagScan> scans;       ///< /scan
+  std::vector<BagScan> more_scans;  ///< /rear/scan
+  std::vector<BagPose> odometry;    ///< /odom, with twist (1, 2, 3) m/s, m/s, rad/s
+  std::vector<BagPose> transforms;  ///< /tf odom -> base_link, beside one base_link -> laser
+  std::vector<BagPose> poses;       ///< /reference, PoseStamped
+  std::vector<BagPose> fixes;       ///< /amcl_pose, PoseWithCovarianceStamped
+};
+
+void write_bag(const std::string& path, const BagContent& content, BagCompression compression);
+
+}  // namespace beaconless
