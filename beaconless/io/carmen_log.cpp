@@ -108,7 +108,7 @@ Result<Recording> open_carmen_log(const std::string& path, const RecordingOption
     topics.push_back({keyword, type_of(keyword), count});
     if (is_carmen_scan(keyword)) scan_topics.push_back(topics.back());
   }
-  const auto chosen = choose_scan_topic(path, options.topic, scan_topics);
+  const auto chosen = choose_scan_topic(path, options, scan_topics);
   if (!chosen) return chosen.error();
   RecordingOptions pass = options;
   pass.topic = *chosen;

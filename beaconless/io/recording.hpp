@@ -24,9 +24,9 @@ struct Problem {
 
 /// How to open a recording.
 struct RecordingOptions {
-  std::string
-      topic;      ///< the scans to take: a topic of a bag, a keyword of a log; empty: the only one there is
-  ScanGate gate;  ///< what Scan::make may assume
+  std::string topic;  ///< the scans to take: a topic of a bag, a keyword of a log; empty: the only one
+  bool scans_optional = false;  ///< where there are several and none is chosen, read none instead of refusing
+  ScanGate gate;                ///< what Scan::make may assume
   std::function<void(const Problem&)> on_problem;  ///< called for each problem, on every pass; may be empty
 };
 

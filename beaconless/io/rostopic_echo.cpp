@@ -131,8 +131,7 @@ Result<Recording> open_rostopic_echo(const std::string& path, const RecordingOpt
   std::vector<Topic> topics;
   for (const Topic& topic : {scans, odometry, poses})
     if (topic.count > 0) topics.push_back(topic);
-  const auto chosen =
-      choose_scan_topic(path, options.topic, std::span(topics).first(scans.count > 0 ? 1 : 0));
+  const auto chosen = choose_scan_topic(path, options, std::span(topics).first(scans.count > 0 ? 1 : 0));
   if (!chosen) return chosen.error();
   return Recording(path, "rostopic echo", *chosen, std::move(topics),
                    [path, options]() -> std::unique_ptr<EventStream> {

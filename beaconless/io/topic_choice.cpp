@@ -23,11 +23,13 @@ std::string listed(std::span<const Topic> topics) {
 
 }  // namespace
 
-Result<std::string> choose_scan_topic(const std::string& path, const std::string& wanted,
+Result<std::string> choose_scan_topic(const std::string& path, const RecordingOptions& options,
                                       std::span<const Topic> scan_topics) {
+  const std::string& wanted = options.topic;
   if (wanted.empty()) {
     if (scan_topics.empty()) return std::string();
     if (scan_topics.size() == 1) return scan_topics.front().name;
+    if (options.scans_optional) return std::string();
     return Error{path, "several scan topics and none chosen: " + listed(scan_topics),
                  "choose one with --topic"};
   }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "commands.hpp"
+#include "localize_run.hpp"
+
+namespace beaconless::cli {
+
+void add_localize(CLI::App& app, Console& console, int& exit_code) {
+  auto* command = app.add_subcommand("localize", "Find the robot's pose for every scan of a recording");
+  auto words = std::make_shared<LocalizeWords>();
+  command
+      ->add_option("recording", words->recording, "The recording: CARMEN log, rostopic echo text, ROS 1 bag")
+      ->required();
+  command->add_option("--map", words->map, "The map: floor plan YAML, or map_server YAML")->required();
+  command->add_option("--out", words->out, "Folder for trajectory, estimates, config, report and summary");
+  command->add_option("--method", words->method, "How (see beaconless params)");
+  command->add_option("--start", words->start, "Start pose of the base, x,y,deg");
+  command->add_option("--start-from", words->start_from,
+                      "Start pose from a TUM file, or 'recorded': from the recording");
+  command->add_option("--base-from-laser", words->base_from_laser,
+                      "The laser on the robot, x,y,deg (default 0,0,0)");
+  command->add_option("--reference", words->reference, "Poses to compare with: a TUM file, or 'recorded'");
+  command->add_option("--pose-topic", words->pose_topic,
+                      "Which poses 'recorded' means, where there are several");
+  command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
+  command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
+  command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m] (icp.sigma_m)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
+      ->check(CLI::IsMember({"first", "middle", "last"}))
+      ->capture_default_str();
+  command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--config", words->config, "Parameters from a YAML file");
+  command->add_option("--set", words->set, "One parameter, name=value; may be repeated");
+  command->footer(
+      "Example:  beaconless localize drive.bag --topic /scan --map hall.yaml --start 1.2,3.4,90 --out run/");
+  command->callback([&console, &exit_code, words] { exit_code = localize_run(console, *words); });
+}
+
+}  // namespace beaconless::cli

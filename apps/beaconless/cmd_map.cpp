@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "beaconless/io/grid_io.hpp"
+#include "beaconless/io/scan_selection.hpp"
+#include "beaconless/map/grid_builder.hpp"
+
+#include "commands.hpp"
+#include "poses_of.hpp"
+#include "words.hpp"
+
+namespace beaconless::cli {
+namespace {
+
+struct MapWords {
+  std::string recording;
+  ScanWords scan;
+  std::string poses = "recorded";
+  std::string pose_topic;
+  std::string base_from_laser;
+  std::string out;
+  GridBuilderConfig builder;
+};
+
+/// Where the laser sits: as told, else as the recording tells it with its poses, else in the base.
+Result<Pose2> laser_place(const MapWords& words, const PosesOf& poses) {
+  if (!words.base_from_laser.empty()) return pose_from_words("--base-from-laser", words.base_from_laser);
+  return poses.base_from_laser.value_or(Pose2{});
+}
+
+int build(const Console& console, const MapWords& words) {
+  const auto scans = io::ScanSelection::parse(words.scan.scans);
+  if (!scans) return console.fail(scans.error(), kUsage);
+  ProblemLog problems;
+  io::RecordingOptions options{.topic = words.scan.topic, .gate = words.scan.gate()};
+  const auto quiet_recording = io::open_recording(words.recording, options);
+  if (!quiet_recording) return console.fail(quiet_recording.error());
+  options.on_problem = [&](const io::Problem& problem) { problems.add(problem); };
+  const auto recording = io::open_recording(words.recording, options);
+  if (!recording) return console.fail(recording.error());
+  const auto poses = poses_of(words.poses, *quiet_recording, words.pose_topic);
+  if (!poses) return console.fail(poses.error());
+  const auto base_from_laser = laser_place(words, *poses);
+  if (!base_from_laser) return console.fail(base_from_laser.error(), kUsage);
+  auto builder = GridBuilder::make(words.builder);
+  if (!builder) return console.fail(builder.error(), kUsage);
+
+  std::size_t scan_index = 0;
+  std::size_t used = 0;
+  std::size_t without_pose = 0;
+  Progress progress(console, "scan", 0);
+  for (const Event& event : *recording) {
+    const auto* scan = std::get_if<Scan>(&event);
+    if (scan == nullptr) continue;
+    const std::size_t index = scan_index++;
+    progress.step();
+    const auto map_from_base = scans->wants(index) ? poses->at(index, scan->stamp()) : std::nullopt;
+    if (map_from_base) {
+      if (auto added = builder.value().add(*scan, *map_from_base * *base_from_laser); !added)
+        return console.fail(added.error());
+      ++used;
+    } else if (scans->wants(index)) {
+      ++without_pose;
+    }
+    if (scans->done_after(index)) break;
+  }
+  problems.report(console);
+  if (without_pose > 0)
+    console.warn(fmt::format("{} scans have no pose at their stamp and were left out", without_pose));
+  if (used == 0)
+    return console.fail({words.recording, "no scan had a pose", "check --poses, --scans and the stamps"});
+  const OccupancyGrid grid = builder->grid();
+  if (auto written = io::write_grid(words.out, grid); !written) return console.fail(written.error());
+  console.say(fmt::format("{}: {} x {} cells of {} m from {} scans", words.out, grid.width_cells,
+                          grid.height_cells, grid.resolution_m, used));
+  console.result({{"out", words.out},
+                  {"width_cells", grid.width_cells},
+                  {"height_cells", grid.height_cells},
+                  {"resolution_m", grid.resolution_m},
+                  {"scans", used},
+                  {"without_pose", without_pose}});
+  return kGood;
+}
+
+}  // namespace
+
+void add_map(CLI::App& app, Console& console, int& exit_code) {
+  auto* map = app.add_subcommand("map", "Make maps");
+  map->require_subcommand(1);
+  auto* command = map->add_subcommand("build", "An occupancy grid from a recording with known poses");
+  auto words = std::make_shared<MapWords>();
+  command->add_option("recording", words->recording, "The recording")->required();
+  command->add_option("--out", words->out, "The map's YAML; the picture is written beside it")->required();
+  command->add_option("--poses", words->poses, "Poses of the base: a TUM file, or 'recorded'")
+      ->capture_default_str();
+  command->add_option("--pose-topic", words->pose_topic,
+                      "Which poses 'recorded' means, where there are several");
+  command->add_option("--base-from-laser", words->base_from_laser,
+                      "The laser on the robot, x,y,deg (default: as the recording tells)");
+  command->add_option("--resolution", words->builder.resolution_m, "Side of a cell [m]")
+      ->capture_default_str();
+  command->add_option("--p-occupied", words->builder.p_occupied, "Probability of a cell where a beam ends")
+      ->capture_default_str();
+  command->add_option("--p-free", words->builder.p_free, "Probability of a cell that a beam crosses")
+      ->capture_default_str();
+  command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
+  command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
+  command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
+      ->check(CLI::NonNegativeNumber);
+  command->footer(
+      "Example:  beaconless map build drive.log --poses recorded --resolution 0.05 --out hall.yaml");
+  command->callback([&console, &exit_code, words] { exit_code = build(console, *words); });
+}
+
+}  // namespace beaconless::cli

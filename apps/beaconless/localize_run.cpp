@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize_run.hpp"
+
+#include <filesystem>
+
+#include "beaconless/io/config_yaml.hpp"
+#include "beaconless/io/map_io.hpp"
+#include "beaconless/io/tum.hpp"
+#include "beaconless/localize/make_localizer.hpp"
+
+#include "poses_of.hpp"
+#include "replay.hpp"
+#include "run_files.hpp"
+
+namespace beaconless::cli {
+namespace {
+
+/// The run's configuration: defaults, then the file, then the options, then each --set.
+Result<LocalizerConfig> config_of(const LocalizeWords& words) {
+  LocalizerConfig config;
+  const auto fields = fields_of(config);
+  if (!words.config.empty())
+    if (auto read = io::read_config(words.config, fields); !read) return read.error();
+  if (!words.method.empty()) config.method = words.method;
+  if (words.sigma_m > 0.0) config.icp.sigma_m = words.sigma_m;
+  if (!words.base_from_laser.empty()) {
+    const auto pose = pose_from_words("--base-from-laser", words.base_from_laser);
+    if (!pose) return pose.error();
+    config.base_from_laser = *pose;
+  }
+  for (const std::string& pair : words.set) {
+    const auto equals = pair.find('=');
+    if (equals == std::string::npos)
+      return Error{"--set " + pair, "there is no \"=\"", "write --set name=value"};
+    if (auto set = set_field(fields, pair.substr(0, equals), pair.substr(equals + 1)); !set)
+      return set.error();
+  }
+  return config;
+}
+
+struct FirstScan {
+  std::size_t index = 0;
+  Scan scan;
+};
+
+Result<FirstScan> first_scan(const io::Recording& recording, const io::ScanSelection& scans) {
+  std::size_t index = 0;
+  for (const Event& event : recording) {
+    const auto* scan = std::get_if<Scan>(&event);
+    if (scan == nullptr) continue;
+    if (scans.wants(index)) return FirstScan{index, *scan};
+    if (scans.done_after(index++)) break;
+  }
+  return Error{recording.path(), "no scan to localize",
+               index == 0 ? "the recording has no scans"
+                          : "it has " + std::to_string(index) + "; --scans leaves none"};
+}
+
+/// Where the robot starts, by the words of the call.
+Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& recording, const FirstScan& first) {
+  if (!words.start.empty()) return pose_from_words("--start", words.start);
+  const auto poses = poses_of(words.start_from, recording, words.pose_topic);
+  if (!poses) return poses.error();
+  if (auto pose = poses->at(first.index, first.scan.stamp())) return *pose;
+  // A reference that begins a moment later than the scans still tells where they begin.
+  if (!poses->trajectory.empty() &&
+      std::abs(seconds_between(first.scan.stamp(), poses->trajectory.front().stamp)) < 1.0)
+    return poses->trajectory.front().pose;
+  return Error{words.start_from,
+               "there is no pose at the first scan, " + to_string(first.scan.stamp()) + " s",
+               "give one by --start x,y,deg"};
+}
+
+}  // namespace
+
+int localize_run(const Console& console, const LocalizeWords& words) {
+  // 1. What was asked for.
+  const auto config = config_of(words);
+  if (!config) return console.fail(config.error(), kUsage);
+  const auto scans = io::ScanSelection::parse(words.scan.scans);
+  if (!scans) return console.fail(scans.error(), kUsage);
+  if (words.start.empty() == words.start_from.empty())
+    return console.fail({"start", "the start pose is not given, or given twice",
+                         "give --start x,y,deg or --start-from REF.tum|recorded"},
+                        kUsage);
+  // 2. Open what is to be read.
+  ProblemLog problems;
+  io::RecordingOptions options{.topic = words.scan.topic, .gate = words.scan.gate()};
+  const auto quiet_recording = io::open_recording(words.recording, options);
+  if (!quiet_recording) return console.fail(quiet_recording.error());
+  options.on_problem = [&](const io::Problem& problem) { problems.add(problem); };
+  const auto recording = io::open_recording(words.recording, options);
+  if (!recording) return console.fail(recording.error());
+  auto map = io::read_map(words.map);
+  if (!map) return console.fail(map.error());
+  const auto shared_map = std::make_shared<const Map>(*std::move(map));
+  const auto first = first_scan(*quiet_recording, *scans);
+  if (!first) return console.fail(first.error());
+  const auto start = start_pose(words, *quiet_recording, *first);
+  if (!start) return console.fail(start.error(), words.start.empty() ? kData : kUsage);
+  std::optional<Trajectory> reference;
+  if (!words.reference.empty()) {
+    auto poses = poses_of(words.reference, *quiet_recording, words.pose_topic);
+    if (!poses) return console.fail(poses.error());
+    reference = std::move(poses->trajectory);
+  }
+  // 3. Localize.
+  auto localizer = make_localizer(*config, *shared_map);
+  if (!localizer) return console.fail(localizer.error(), localizer.error().where == "map" ? kData : kUsage);
+  (*localizer)->start_at(*start);
+  Run run{.config = *config, .map = shared_map, .reference = std::move(reference), .first_scan = first->scan};
+  run.replay = replay(*recording, *scans, **localizer, config->base_from_laser, console);
+  run.problems = problems.lines();
+  problems.report(console);
+  // 4. Write and tell what came of it.
+  return finish_run(console, words, run);
+}
+
+}  // namespace beaconless::cli

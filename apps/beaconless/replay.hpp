@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "beaconless/io/recording.hpp"
+#include "beaconless/io/scan_selection.hpp"
+#include "beaconless/localize/localizer.hpp"
+#include "beaconless/report/run_report.hpp"
+
+#include "console.hpp"
+
+namespace beaconless::cli {
+
+/// What a localizer made of a recording.
+struct Replay {
+  std::vector<PoseEstimate> estimates;      ///< one a scan that was taken
+  std::vector<double> update_us;            ///< of update() alone, one a scan
+  std::vector<report::PlacedScan> overlay;  ///< a few scans along the way, placed by their estimates
+  std::uint64_t skipped_records = 0;
+};
+
+/// Feeds the events of a recording to a localizer, scans by the selection.
+Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Localizer& localizer,
+              const Pose2& base_from_laser, const Console& console);
+
+}  // namespace beaconless::cli

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "beaconless/io/config_yaml.hpp"
+#include "beaconless/io/estimates_csv.hpp"
+#include "beaconless/io/tum.hpp"
+#include "beaconless/report/run_report.hpp"
+
+#include "tables.hpp"
+
+namespace beaconless::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Trajectory trajectory_of(const Run& run) {
+  std::vector<StampedPose> poses;
+  for (const PoseEstimate& estimate : run.replay.estimates)
+    poses.push_back({estimate.stamp, estimate.map_from_base});
+  return Trajectory(std::move(poses));
+}
+
+std::map<std::string, std::size_t> status_counts(const Run& run) {
+  std::map<std::string, std::size_t> counts;
+  for (const PoseEstimate& estimate : run.replay.estimates) ++counts[std::string(to_string(estimate.status))];
+  return counts;
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+nlohmann::json summary_of(const LocalizeWords& words, const Run& run,
+                          const std::optional<Judgement>& judgement) {
+  const auto& times = run.replay.update_us;
+  nlohmann::json summary = {{"method", run.config.method},
+                            {"recording", words.recording},
+                            {"map", words.map},
+                            {"scans", run.replay.estimates.size()},
+                            {"status_counts", status_counts(run)},
+                            {"skipped_records", run.replay.skipped_records},
+                            {"update_us",
+                             {{"median", percentile(times, 0.5)},
+                              {"p99", percentile(times, 0.99)},
+                              {"max", percentile(times, 1.0)}}}};
+  if (judgement) summary["error"] = to_json(*judgement);
+  return summary;
+}
+
+std::string config_text(const Run& run) {
+  LocalizerConfig config = run.config;
+  LocalizerConfig defaults;
+  return io::config_yaml(fields_of(config), fields_of(defaults));
+}
+
+report::RunReport report_of(const LocalizeWords& words, const Run& run,
+                            const std::optional<Judgement>& judgement) {
+  report::RunReport page;
+  page.title = words.title.empty() ? fs::path(words.recording).filename().string() : words.title;
+  page.method = run.config.method;
+  page.map_name = fs::path(words.map).filename().string();
+  page.recording_name = fs::path(words.recording).filename().string();
+  page.command_line = words.command_line;
+  page.map = run.map;
+  page.estimates = run.replay.estimates;
+  page.reference = run.reference;
+  page.scans = run.replay.overlay;
+  page.update_times_us = run.replay.update_us;
+  page.config_text = config_text(run);
+  page.problems = run.problems;
+  if (run.replay.skipped_records > 0)
+    page.problems.push_back(
+        fmt::format("{} records of the recording were passed over", run.replay.skipped_records));
+  if (!judgement) return page;
+  page.errors = judgement->evaluation.errors;
+  page.bounds = judgement->bounds;
+  page.error = judgement->evaluation.raw;
+  page.error_aligned = judgement->evaluation.aligned;
+  page.bound_ratio = judgement->crb_ratio;
+  return page;
+}
+
+/// Writes the files of a run; gives their paths.
+Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& run,
+                                             const nlohmann::json& summary, const std::string& page) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return Error{folder.string(), failed.message(), "choose another --out"};
+  std::vector<std::string> paths;
+  const auto path_of = [&](const char* name) { return paths.emplace_back((folder / name).string()); };
+
+  if (auto written = io::write_tum(path_of("trajectory.tum"), trajectory_of(run)); !written)
+    return written.error();
+  io::EstimatesCsvWriter csv(path_of("estimates.csv"));
+  for (const PoseEstimate& estimate : run.replay.estimates) csv.write(estimate);
+  if (auto written = csv.finish(); !written) return written.error();
+  for (const auto& [name, text] : {std::pair{"config.yaml", config_text(run)},
+                                   {"summary.json", summary.dump(2) + "\n"},
+                                   {"report.html", page}}) {
+    const std::string path = path_of(name);
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+    if (!out.flush()) return Error{path, "cannot be written", "is there space, and may you write there?"};
+  }
+  return paths;
+}
+
+void tell(const Console& console, const Run& run, const nlohmann::json& summary,
+          const std::optional<Judgement>& judgement) {
+  std::string counts;
+  for (const auto& [status, count] : status_counts(run))
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, status);
+  const auto& times = summary["update_us"];
+  console.say(fmt::format("{} scans by {}: {}", run.replay.estimates.size(), run.config.method, counts));
+  console.say(fmt::format("update: median {:.0f} µs, p99 {:.0f} µs, max {:.0f} µs",
+                          times["median"].get<double>(), times["p99"].get<double>(),
+                          times["max"].get<double>()));
+  if (!judgement) return;
+  console.say("\nerror against the reference, as it is\n" + table_text(judgement->evaluation.raw));
+  console.say("after rigid alignment\n" + table_text(judgement->evaluation.aligned));
+  if (judgement->crb_ratio)
+    console.say(fmt::format("{:.2f} (position) and {:.2f} (heading) times the Cramér–Rao bound\n",
+                            judgement->crb_ratio->position, judgement->crb_ratio->heading));
+}
+
+}  // namespace
+
+int finish_run(const Console& console, const LocalizeWords& words, const Run& run) {
+  std::optional<Judgement> judgement;
+  if (run.reference)
+    judgement = judge(trajectory_of(run), *run.reference, run.map.get(),
+                      eval::sensor_of(run.first_scan, run.config.icp.sigma_m), run.config.base_from_laser);
+  if (judgement && judgement->evaluation.errors.empty()) {
+    console.warn("no estimate has a reference at its stamp; do both use the same clock?");
+    judgement.reset();
+  }
+  const nlohmann::json summary = summary_of(words, run, judgement);
+  tell(console, run, summary, judgement);
+  if (!words.out.empty()) {
+    const auto paths = write_files(words.out, run, summary, report::html(report_of(words, run, judgement)));
+    if (!paths) return console.fail(paths.error());
+    console.say("written:");
+    for (const std::string& path : *paths) console.say("  " + path);
+  }
+  console.result(summary);
+  if (run.replay.estimates.back().status != Status::lost) return kGood;
+  console.warn("the robot is lost at the end of the recording");
+  return kLost;
+}
+
+}  // namespace beaconless::cli

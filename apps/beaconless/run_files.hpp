@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "beaconless/geometry/trajectory.hpp"
+#include "beaconless/localize/localizer_config.hpp"
+#include "beaconless/map/map.hpp"
+
+#include "localize_run.hpp"
+#include "replay.hpp"
+
+namespace beaconless::cli {
+
+/// A finished run of a localizer.
+struct Run {
+  LocalizerConfig config;
+  std::shared_ptr<const Map> map;
+  std::optional<Trajectory> reference;
+  Scan first_scan;
+  Replay replay;
+  std::vector<std::string> problems;
+};
+
+/// Writes trajectory.tum, estimates.csv, config.yaml, report.html and summary.json where the words say, tells
+/// the result, and gives the exit code.
+int finish_run(const Console& console, const LocalizeWords& words, const Run& run);
+
+}  // namespace beaconless::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "words.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "beaconless/core/parse.hpp"
+
+namespace beaconless::cli {
+
+Result<Pose2> pose_from_words(std::string_view option, std::string_view text) {
+  const auto words = split_words(text, ", ");
+  const Error error{std::string(option), "\"" + std::string(text) + "\" is no pose",
+                    "write x,y,deg: metres, metres, degrees, for example 1.2,3.4,90"};
+  if (words.size() != 3) return error;
+  double numbers[3] = {};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto number = parse_double(words[i]);
+    if (!number || !std::isfinite(*number)) return error;
+    numbers[i] = *number;
+  }
+  return Pose2{numbers[0], numbers[1], wrap_angle(radians(numbers[2]))};
+}
+
+ScanGate ScanWords::gate() const {
+  return {.stamp_is = stamp_is == "last"     ? StampIs::last_beam
+                      : stamp_is == "middle" ? StampIs::middle_beam
+                                             : StampIs::first_beam,
+          .range_min_m = static_cast<float>(min_range_m),
+          .range_max_m = static_cast<float>(max_range_m)};
+}
+
+std::optional<std::string> shipped_file(const std::string& relative_path) {
+  std::string places = BEACONLESS_DATA_DIRS;
+  if (const char* chosen = std::getenv("BEACONLESS_SHARE")) places = std::string(chosen) + ":" + places;
+  for (const auto place : split_words(places, ":")) {
+    const auto path = std::filesystem::path(place) / relative_path;
+    if (std::filesystem::exists(path)) return path.string();
+  }
+  return std::nullopt;
+}
+
+}  // namespace beaconless::cli
