@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/io/tum.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -11,20 +10,13 @@
 #include <fmt/format.h>
 
 #include "beaconless/core/parse.hpp"
+#include "beaconless/io/quaternion_yaw.hpp"
 #include "beaconless/io/text_table.hpp"
 
 namespace beaconless::io {
 namespace {
 
 constexpr double kMaxCoordinate_m = 1e9;
-
-std::optional<double> yaw_of(double x, double y, double z, double w) {
-  const double largest = std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)});
-  if (!(largest > 0.0)) return std::nullopt;
-  x /= largest, y /= largest, z /= largest, w /= largest;  // squares of 1e200 are no numbers
-  const double square = x * x + y * y + z * z + w * w;
-  return wrap_angle(std::atan2(2.0 * (w * z + x * y), square - 2.0 * (y * y + z * z)));
-}
 
 /// The pose of a line, or what is wrong with it.
 struct TumLine {
@@ -46,9 +38,9 @@ TumLine pose_of(const std::vector<std::string_view>& words) {
   const auto [x, y, z, qx, qy, qz, qw] = numbers;
   if (std::abs(x) > kMaxCoordinate_m || std::abs(y) > kMaxCoordinate_m)
     return {{}, "the position is beyond 1e9 m"};
-  const auto yaw = yaw_of(qx, qy, qz, qw);
-  if (!yaw) return {{}, "the quaternion is all zeros"};
-  return {StampedPose{*stamp, Pose2{x, y, *yaw}}, {}};
+  const auto yaw_rad = yaw_rad_of_quaternion(qx, qy, qz, qw);
+  if (!yaw_rad) return {{}, "the quaternion has no length"};
+  return {StampedPose{*stamp, Pose2{x, y, wrap_angle(*yaw_rad)}}, {}};
 }
 
 std::string line_of(Stamp stamp, const Pose2& pose) {

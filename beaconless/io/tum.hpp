@@ -16,8 +16,8 @@ namespace beaconless::io {
 ///
 /// The pose is projected to the plane: z is dropped, heading is the quaternion's yaw, atan2(2 (w z + x y),
 /// 1 - 2 (y² + z²)) after it is made a unit. Lines that are no pose (not eight finite numbers, x or y beyond
-/// 1e9 m, a quaternion of zeros) go to `on_problem` with their number and are passed over; so is told, and
-/// kept, a stamp that is older than the one before. A file without any pose is an Error. Source:
+/// 1e9 m, a quaternion of no length) go to `on_problem` with their number and are passed over; so is told,
+/// and kept, a stamp that is older than the one before. A file without any pose is an Error. Source:
 /// cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats.
 Result<Trajectory> read_tum(const std::string& path,
                             const std::function<void(const Problem&)>& on_problem = {});

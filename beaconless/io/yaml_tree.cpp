@@ -18,6 +18,7 @@ namespace beaconless::io {
 namespace {
 
 constexpr std::size_t kMaxDepth = 32;
+constexpr const char* kTooDeep = "lists and maps are nested too deeply";
 
 /// Leaves the parser from inside an event; caught in read_yaml.
 struct Refused {
@@ -65,7 +66,7 @@ class TreeGrower : public YAML::EventHandler {
     attach(YamlNode{kind, mark.line + 1, text, {}});
   }
   void open(const YAML::Mark& mark, YamlNode::Kind kind) {
-    if (open_.size() == kMaxDepth) throw Refused{mark.line + 1, "lists and maps are nested too deeply", ""};
+    if (open_.size() == kMaxDepth) throw Refused{mark.line + 1, kTooDeep, "is it the right file?"};
     open_.push_back({YamlNode{kind, mark.line + 1, {}, {}}, {}});
   }
   void close() {
@@ -98,6 +99,23 @@ class TreeGrower : public YAML::EventHandler {
   std::vector<Open> open_;
   int documents_ = 0;
 };
+
+/// The line where the brackets that were opened and not closed become too many; 0 when they never do.
+///
+/// The parser keeps every open bracket of a line in memory, some 240 bytes each, before it tells of the
+/// first; brackets in texts and comments count here too, which is why the limit is far from kMaxDepth.
+int line_of_too_many_brackets(std::string_view bytes) {
+  constexpr int kMaxOpen = 1000;
+  int open = 0;
+  int line = 1;
+  for (const char c : bytes) {
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    if (c == '\n') ++line;
+    if (open > kMaxOpen) return line;
+  }
+  return 0;
+}
 
 bool is_plain(std::string_view text) {
   constexpr std::string_view kSafe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-";
@@ -142,6 +160,8 @@ std::string YamlNode::described() const {
 Result<YamlNode> read_yaml(const std::string& path) {
   auto bytes = read_whole_file(path, kMaxYamlBytes);
   if (!bytes) return bytes.error();
+  if (const int line = line_of_too_many_brackets(*bytes); line > 0)
+    return Error{path + ":" + std::to_string(line), kTooDeep, "is it the right file?"};
   TreeGrower grower;
   try {
     std::istringstream in(std::move(bytes).value());

@@ -49,7 +49,7 @@ TEST(Tum, YawIsTheHeadingOfTheTurnedXAxisForAnyQuaternion) {
   const TempFolder folder;
   Rng rng(1);
   for (int i = 0; i < 300; ++i) {
-    const double scale = std::pow(10.0, rng.uniform(-150.0, 150.0));
+    const double scale = std::pow(10.0, rng.uniform(-4.0, 150.0));
     const double x = scale * rng.normal(), y = scale * rng.normal(), z = scale * rng.normal(),
                  w = scale * rng.normal();
     char line[300];
@@ -87,7 +87,7 @@ TEST(Tum, BadLinesAreToldByNumberAndPassedOver) {
   EXPECT_THAT(read.problems[0].what, HasSubstr("7 words"));
   EXPECT_THAT(read.problems[2].what, HasSubstr("\"four\""));
   EXPECT_THAT(read.problems[3].what, HasSubstr("\"nan\""));
-  EXPECT_THAT(read.problems[5].what, HasSubstr("zeros"));
+  EXPECT_THAT(read.problems[5].what, HasSubstr("no length"));
 }
 
 TEST(Tum, StampsThatRunBackwardsAreToldAndSorted) {
