@@ -10,7 +10,7 @@ namespace beaconless::cli {
 namespace {
 
 struct DemoWords {
-  std::string scenario = "small-rotation";
+  std::string scenario = "small-drive";
   std::string out = "demo";
 };
 

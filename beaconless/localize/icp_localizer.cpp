@@ -22,6 +22,15 @@ Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return ((a + ridge).inverse() + (b + ridge).inverse()).inverse();
 }
 
+/// The error that the robot's own motion during a sweep leaves in a fit of the sweep as if it were taken at
+/// once: the fit is right for some moment of the sweep, half of it from the stamp on average.
+Eigen::Matrix3d sweep_covariance(const Pose2& map_from_base, const Twist2& twist_per_s, double sweep_time_s) {
+  const Twist2 half = (0.5 * sweep_time_s) * twist_per_s;
+  const Eigen::Vector2d moved = map_from_base.rotation() * Eigen::Vector2d(half.x_m, half.y_m);
+  const Eigen::Vector3d error(moved.x(), moved.y(), half.theta_rad);
+  return error * error.transpose();
+}
+
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
 
 }  // namespace
@@ -71,7 +80,7 @@ PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
   else if (health_.is_doubtful(match.on_map_ratio) && is_jump(match, prediction))
     last_ = coast(prediction, scan->stamp(), "the scan fits nowhere near the predicted pose");
   else
-    last_ = accept(match, prediction, scan->stamp());
+    last_ = accept(match, prediction, *scan);
   return last_;
 }
 
@@ -111,9 +120,9 @@ MatchResult IcpLocalizer<Index>::try_other_starts(const MatchResult& first, cons
 
 template <SurfaceIndex Index>
 PoseEstimate IcpLocalizer<Index>::accept(const MatchResult& match, const Prediction& prediction,
-                                         Stamp stamp) {
+                                         const Scan& scan) {
   PoseEstimate estimate;
-  estimate.stamp = stamp;
+  estimate.stamp = scan.stamp();
   estimate.map_from_base = match.map_from_laser * laser_from_base_;
   estimate.covariance = moved_covariance(match.covariance, match.map_from_laser, laser_from_base_);
   estimate.quality = match.on_map_ratio;
@@ -128,10 +137,12 @@ PoseEstimate IcpLocalizer<Index>::accept(const MatchResult& match, const Predict
       estimate.reason = "the walls in view leave a direction open, which is held at the prediction";
     }
   }
-  estimate.covariance = symmetric(estimate.covariance);
+  estimate.covariance =
+      symmetric(estimate.covariance +
+                sweep_covariance(estimate.map_from_base, prediction.twist_per_s, scan.sweep_time_s()));
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
-    return coast(prediction, stamp, "the fit gave no finite pose");
-  motion_.correct(stamp, estimate.map_from_base, estimate.covariance);
+    return coast(prediction, scan.stamp(), "the fit gave no finite pose");
+  motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
   return estimate;
 }
 

@@ -12,7 +12,8 @@ namespace beaconless {
 /// `icp-full`: every point of the scan against the walls (or the surface cells) of the map.
 ///
 /// Source: dissertation 3.2, second approach; prediction from the last two poses.
-/// Differs: see match_icp; a fit that explains unusually little of the scan is tried again from the best
+/// Differs: a sweep is fitted as if taken at once; what the robot's motion during it adds is put into the
+/// covariance. See match_icp; a fit that explains unusually little of the scan is tried again from the best
 /// poses around the prediction (search_around), because a robot that turns by 20° between two scans is
 /// outside ICP's basin.
 template <SurfaceIndex Index>
@@ -27,7 +28,7 @@ class IcpLocalizer final : public Localizer {
   void load(const Scan& scan);
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
   MatchResult try_other_starts(const MatchResult& first, const Pose2& map_from_laser);
-  PoseEstimate accept(const MatchResult& match, const Prediction& prediction, Stamp stamp);
+  PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan);
   PoseEstimate coast(const Prediction& prediction, Stamp stamp, std::string_view reason);
 
   LocalizerConfig config_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <iosfwd>
 #include <span>
@@ -73,6 +74,9 @@ class Scan {
   std::span<const float> x_m() const { return x_m_; }            ///< sensor frame; 0 where not a hit
   std::span<const float> y_m() const { return y_m_; }
   std::span<const float> intensities() const { return intensities_; }  ///< empty, or one a beam, all finite
+
+  /// Seconds from the first beam to the last; 0 where the source tells no time per beam.
+  double sweep_time_s() const { return std::abs(time_increment_s_) * static_cast<double>(size() - 1); }
 
   bool is_hit(std::size_t beam) const { return beams_[beam] == Beam::hit; }
   Eigen::Vector2d point(std::size_t beam) const { return {x_m_[beam], y_m_[beam]}; }

@@ -29,8 +29,10 @@ Prediction MotionFilter::predict(Stamp stamp) const {
   if (!told) elapsed_s = step_s_ > 0.0 ? step_s_ : kNominalStep_s;
 
   Prediction prediction{last_, covariance_};
-  if (step_s_ > 0.0 && elapsed_s <= config_.max_gap_s)
-    prediction.map_from_base = last_ * Pose2::exp((elapsed_s / step_s_) * step_);
+  if (step_s_ > 0.0 && elapsed_s <= config_.max_gap_s) {
+    prediction.twist_per_s = (1.0 / step_s_) * step_;
+    prediction.map_from_base = last_ * Pose2::exp(elapsed_s * prediction.twist_per_s);
+  }
   const double grown_s2 = elapsed_s * elapsed_s;
   const double slack_m = config_.acceleration_mps2 * grown_s2;
   const double slack_rad = config_.turn_acceleration_radps2 * grown_s2;

@@ -22,6 +22,7 @@ void describe(Fields& fields, MotionConfig& config);
 struct Prediction {
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Twist2 twist_per_s;  ///< base frame
 };
 
 /// Carries the motion of the last two poses on to the next scan: constant velocity, no odometry needed.
