@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <beaconless/io/map_io.hpp>
 #include <iostream>
+
+#include <beaconless/io/map_io.hpp>
 
 int main() {
   const beaconless::Pose2 map_from_base{1.2, 3.4, 0.5};
