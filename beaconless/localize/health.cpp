@@ -11,6 +11,8 @@ void describe(Fields& fields, HealthConfig& config) {
   fields("weak_share", config.weak_share, {0.0, 1.0}, "a fit below this share of the usual one is weak");
   fields("weak_ratio", config.weak_ratio, {0.0, 1.0},
          "a fit that explains less of the scan than this is weak");
+  fields("found_ratio", config.found_ratio, {0.0, 1.0},
+         "a lost robot is found by a fit that explains at least this share of the scan");
   fields("lost_ratio", config.lost_ratio, {0.0, 1.0},
          "a fit that explains less of the scan than this is no fit");
   fields("lost_after_scans", config.lost_after_scans, {1, 100000}, "so many weak fits in a row mean lost");
@@ -18,7 +20,8 @@ void describe(Fields& fields, HealthConfig& config) {
 }
 
 bool Health::is_weak(double on_map_ratio) const {
-  return on_map_ratio < std::max(config_.weak_ratio, config_.weak_share * usual_ratio_);
+  const double least = lost() ? config_.found_ratio : config_.weak_ratio;
+  return on_map_ratio < std::max(least, config_.weak_share * usual_ratio_);
 }
 
 Status Health::judge(double on_map_ratio) {

@@ -12,6 +12,7 @@ struct HealthConfig {
       0.9;  ///< a fit that explains less than this share of what is usual here is tried elsewhere too
   double weak_share = 0.75;  ///< … and less than this is weak
   double weak_ratio = 0.35;  ///< a fit that explains less of the scan than this is weak in any case
+  double found_ratio = 0.5;  ///< a lost robot is found again by a fit that explains at least this much
   double lost_ratio = 0.25;  ///< a fit that explains less than this is no fit
   int lost_after_scans = 8;  ///< so many weak fits in a row, and the robot is lost
   double forget = 0.05;      ///< how fast "usual" follows the scans

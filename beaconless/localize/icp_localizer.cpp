@@ -77,6 +77,8 @@ PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
   // 5. Take the fit as the pose, or go on by the motion alone.
   if (!match.usable())
     last_ = coast(prediction, scan->stamp(), "too few beams end near a wall of the map");
+  else if (health_.lost() && health_.is_weak(match.on_map_ratio))
+    last_ = coast(prediction, scan->stamp(), "the scan fits nowhere around the last trusted pose");
   else if (health_.is_doubtful(match.on_map_ratio) && is_jump(match, prediction))
     last_ = coast(prediction, scan->stamp(), "the scan fits nowhere near the predicted pose");
   else

@@ -99,8 +99,9 @@ Normal weigh(const std::vector<Pair>& pairs, const Loss& loss, double scale_m) {
 /// The eigenvectors of the Hessian with headings measured in metres at the mean arm, and which of them are
 /// determined.
 struct Observability {
-  Eigen::Matrix3d directions;  // columns, least certain first, in (m, m, rad)
-  Eigen::Vector3d hessian;     // eigenvalues
+  Eigen::Matrix3d directions;     // columns, least certain first, in (m, m, rad)
+  Eigen::Matrix3d to_components;  // its inverse
+  Eigen::Vector3d hessian;        // eigenvalues
   int weak_count = 0;
 
   Observability(const Eigen::Matrix3d& full, double arm_m, double scale_m, double unobservable_sigma_m) {
@@ -108,12 +109,20 @@ struct Observability {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
         Eigen::Matrix3d(to_metres * full * to_metres));
     directions = to_metres * solver.eigenvectors();
+    to_components = solver.eigenvectors().transpose() * to_metres.inverse();
     hessian = solver.eigenvalues();
     const double least = scale_m * scale_m / (unobservable_sigma_m * unobservable_sigma_m);
     while (weak_count < 3 && !(hessian[weak_count] > least)) ++weak_count;
   }
 
-  /// H⁻¹ v along the determined directions only.
+  /// A step without what it moves along undetermined directions.
+  Eigen::Vector3d determined(const Eigen::Vector3d& step) const {
+    Eigen::Vector3d components = to_components * step;
+    components.head(weak_count).setZero();
+    return directions * components;
+  }
+
+  /// H⁻¹ along the determined directions only.
   Eigen::Matrix3d inverse() const {
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
     for (int k = weak_count; k < 3; ++k)
@@ -197,7 +206,7 @@ MatchResult match(std::span<const Eigen::Vector2d> points, const Index& map, con
     best.iterations = iteration;
 
     // 4. Step: the closed form far away, Gauss-Newton near by.
-    Eigen::Vector3d step = alignment_step(normal.alignment);
+    Eigen::Vector3d step = seen.determined(alignment_step(normal.alignment));
     const bool near = step.head<2>().norm() < kNear_m && std::abs(step.z()) < kNear_rad;
     if (near && config.solver == IcpSolver::mixed) step = -seen.inverse() * normal.gradient;
     if (near) gate_m = std::min(config.max_pair_distance_m, config.gate_sigma * scale_m);
