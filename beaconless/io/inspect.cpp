@@ -100,7 +100,10 @@ class PoseWatch {
     PoseSource source = source_;
     source.name = name;
     if (offsets_.values().empty()) return source;
-    std::vector<double> x, y, cosines, sines;
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<double> cosines;
+    std::vector<double> sines;
     for (const Pose2& offset : offsets_.values()) {
       x.push_back(offset.x_m);
       y.push_back(offset.y_m);
@@ -109,7 +112,8 @@ class PoseWatch {
     }
     const Pose2 median{quantile(x, 0.5), quantile(y, 0.5),
                        std::atan2(quantile(sines, 0.5), quantile(cosines, 0.5))};
-    std::vector<double> far_m, far_rad;
+    std::vector<double> far_m;
+    std::vector<double> far_rad;
     for (const Pose2& offset : offsets_.values()) {
       far_m.push_back(distance_m(median, offset));
       far_rad.push_back(heading_difference_rad(median, offset));

@@ -32,7 +32,7 @@ struct Magic {
 
 /// Formats that are recognised in order to say what they are.
 const std::vector<Magic>& not_read() {
-  static const std::vector<Magic> list{
+  static const std::vector<Magic> kList{
       {"SQLite format 3\0"s, "is an SQLite database, as rosbag2 writes (.db3): not read yet",
        "convert it with `rosbags-convert`, or echo the scans to text with `ros2 topic echo --full-length`"},
       {"\x89MCAP0\r\n"s, "is an MCAP file: not read yet",
@@ -42,7 +42,7 @@ const std::vector<Magic>& not_read() {
       {"\xFD\x37zXZ"s, "is compressed with xz", "unpack it with `unxz` first"},
       {"PK\x03\x04"s, "is a zip archive", "unpack it first"},
       {"%time"s, "is a table that `rostopic echo -p` printed", "echo it again without -p"}};
-  return list;
+  return kList;
 }
 
 std::string raw_head(const std::string& path) {

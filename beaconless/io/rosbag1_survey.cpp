@@ -20,13 +20,14 @@ constexpr std::size_t kMaxBroken = 100'000;
 constexpr std::uint64_t kIndexEntryBytes = 12;  // seconds, nanoseconds, offset
 constexpr const char* kReindex = "repair a copy with `rosbag reindex`";
 
-enum Op : unsigned char {
-  kMessage = 2,
-  kFileHeader = 3,
-  kIndex = 4,
-  kChunk = 5,
-  kChunkInfo = 6,
-  kConnection = 7
+/// What a record is, as its field `op` has it.
+enum class Op : unsigned char {
+  message = 2,
+  file_header = 3,
+  index = 4,
+  chunk = 5,
+  chunk_info = 6,
+  connection = 7
 };
 
 using Bytes = std::vector<unsigned char>;
@@ -65,7 +66,7 @@ bool take_number(const Fields& fields, const char* name, T& value) {
 
 bool has_op(const Fields& fields, Op op) {
   unsigned char value = 0;
-  return take_number(fields, "op", value) && value == op;
+  return take_number(fields, "op", value) && value == static_cast<unsigned char>(op);
 }
 
 struct Record {
@@ -103,7 +104,7 @@ class Surveyor {
     std::uint64_t index_at = 0;
     std::uint32_t connections = 0;
     std::uint32_t chunks = 0;
-    if (!read_record(kVersionLineBytes, kFileHeader, header) ||
+    if (!read_record(kVersionLineBytes, Op::file_header, header) ||
         !take_number(header.fields, "index_pos", index_at) ||
         !take_number(header.fields, "conn_count", connections) ||
         !take_number(header.fields, "chunk_count", chunks))
@@ -127,7 +128,7 @@ class Surveyor {
     Bytes definition;
     Fields about;
     std::uint32_t id = 0;
-    if (!read_record(at, kConnection, record) || !take_number(record.fields, "conn", id) ||
+    if (!read_record(at, Op::connection, record) || !take_number(record.fields, "conn", id) ||
         record.data_size > kMaxDefinitionBytes || !read(record.data_at, record.data_size, definition) ||
         !parse_fields(definition.data(), definition.size(), about))
       return fail(at, "a connection of the index is damaged or missing", kReindex), false;
@@ -140,7 +141,7 @@ class Surveyor {
     Record info;
     std::uint64_t chunk_at = 0;
     std::uint32_t indexes = 0;
-    if (!read_record(at, kChunkInfo, info) || !take_number(info.fields, "chunk_pos", chunk_at) ||
+    if (!read_record(at, Op::chunk_info, info) || !take_number(info.fields, "chunk_pos", chunk_at) ||
         !take_number(info.fields, "count", indexes) || info.data_size < 8 * std::uint64_t{indexes})
       return fail(at, "a chunk's entry in the index is damaged or missing", kReindex), false;
     if (chunk_at < chunks_end_)  // chunks lie one after the other: none is unpacked twice
@@ -152,7 +153,7 @@ class Surveyor {
   bool walk_chunk(std::uint64_t at, std::uint32_t indexes) {
     Record record;
     std::uint32_t unpacked = 0;
-    if (!read_record(at, kChunk, record) || !take_number(record.fields, "size", unpacked))
+    if (!read_record(at, Op::chunk, record) || !take_number(record.fields, "size", unpacked))
       return fail(at, "a chunk is damaged or missing", kReindex), false;
     if (unpacked > kMaxChunkBytes)
       return fail(at, "a chunk promises " + std::to_string(unpacked) + " bytes", kReindex), false;
@@ -176,7 +177,7 @@ class Surveyor {
     Bytes entries;
     std::uint32_t id = 0;
     std::uint32_t count = 0;
-    if (!read_record(at, kIndex, record) || !take_number(record.fields, "conn", id) ||
+    if (!read_record(at, Op::index, record) || !take_number(record.fields, "conn", id) ||
         !take_number(record.fields, "count", count) || topics_.count(id) == 0 ||
         !read(record.data_at, kIndexEntryBytes * count, entries))
       return fail(at, "the index of a chunk is damaged or missing", kReindex), false;
@@ -203,7 +204,7 @@ class Surveyor {
     if (header_size > kMaxHeaderBytes || !peek(chunk, offset + 4, header_size + 4ULL, bytes)) return false;
     Fields fields;
     std::uint32_t id = 0;
-    if (!parse_fields(bytes.data(), header_size, fields) || !has_op(fields, kMessage) ||
+    if (!parse_fields(bytes.data(), header_size, fields) || !has_op(fields, Op::message) ||
         !take_number(fields, "conn", id) || id != connection)
       return false;
     const auto data_size = number_at<std::uint32_t>(bytes.data() + header_size);
@@ -239,7 +240,8 @@ class Surveyor {
     if (!parse_fields(bytes.data(), header_size, record.fields) || !has_op(record.fields, op)) return false;
     record.data_at = at + 8 + header_size;
     record.data_size = number_at<std::uint32_t>(bytes.data() + header_size);
-    return op == kIndex || record.end() <= size_;  // an index tells its own count of entries, see walk_index
+    return op == Op::index ||
+           record.end() <= size_;  // an index tells its own count of entries, see walk_index
   }
 
   bool read(std::uint64_t at, std::uint64_t count, Bytes& bytes) {
