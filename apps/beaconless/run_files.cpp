@@ -93,7 +93,7 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
 
 /// Writes the files of a run; gives their paths.
 Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& run,
-                                             const nlohmann::json& summary, const std::string& page) {
+                                             const nlohmann::json& summary, const report::RunReport& page) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return Error{folder.string(), failed.message(), "choose another --out"};
@@ -107,7 +107,8 @@ Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& 
   if (auto written = csv.finish(); !written) return written.error();
   for (const auto& [name, text] : {std::pair{"config.yaml", config_text(run)},
                                    {"summary.json", summary.dump(2) + "\n"},
-                                   {"report.html", page}}) {
+                                   {"map.svg", report::draw_run_svg(page)},
+                                   {"report.html", report::html(page)}}) {
     const std::string path = path_of(name);
     std::ofstream out(path, std::ios::binary);
     out << text;
@@ -148,7 +149,7 @@ int finish_run(const Console& console, const LocalizeWords& words, const Run& ru
   const nlohmann::json summary = summary_of(words, run, judgement);
   tell(console, run, summary, judgement);
   if (!words.out.empty()) {
-    const auto paths = write_files(words.out, run, summary, report::html(report_of(words, run, judgement)));
+    const auto paths = write_files(words.out, run, summary, report_of(words, run, judgement));
     if (!paths) return console.fail(paths.error());
     console.say("written:");
     for (const std::string& path : *paths) console.say("  " + path);

@@ -25,8 +25,8 @@ struct Run {
   std::vector<std::string> problems;
 };
 
-/// Writes trajectory.tum, estimates.csv, config.yaml, report.html and summary.json where the words say, tells
-/// the result, and gives the exit code.
+/// Writes trajectory.tum, estimates.csv, config.yaml, summary.json, map.svg and report.html where the words
+/// say, tells the result, and gives the exit code.
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run);
 
 }  // namespace beaconless::cli
