@@ -110,7 +110,7 @@ void add_evaluate(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--map", words->map, "Floor plan, for the Cramér–Rao bound");
   command
       ->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m], for the bound")
-      ->check(CLI::PositiveNumber)
+      ->check(not_positive, "NUMBER > 0")
       ->capture_default_str();
   command->add_option("--recording", words->recording,
                       "Recording whose scanner the bound is for (default: UTM-30LX)");
@@ -118,7 +118,7 @@ void add_evaluate(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--base-from-laser", words->base_from_laser, "Laser on the robot, x,y,deg")
       ->capture_default_str();
   command->add_option("--max-gap", words->max_gap_s, "Longest gap of the reference that is interpolated [s]")
-      ->check(CLI::PositiveNumber)
+      ->check(not_positive, "NUMBER > 0")
       ->capture_default_str();
   command->footer(
       "Example:  beaconless evaluate run/trajectory.tum truth.tum --align --map plan.yaml --sigma 0.01");

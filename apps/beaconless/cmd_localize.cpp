@@ -26,17 +26,18 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m] (icp.sigma_m)")
-      ->check(CLI::PositiveNumber);
+      ->check(not_positive, "NUMBER > 0");
   command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
       ->check(CLI::IsMember({"first", "middle", "last"}))
       ->capture_default_str();
   command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_from_zero_on, "NUMBER >= 0");
   command
       ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_from_zero_on, "NUMBER >= 0");
   command->add_option("--config", words->config, "Parameters from a YAML file");
-  command->add_option("--set", words->set, "One parameter, name=value; may be repeated");
+  command->add_option("--set", words->set, "One parameter, name=value; may be repeated")
+      ->allow_extra_args(false);
   command->footer(
       "Example:  beaconless localize drive.bag --topic /scan --map hall.yaml --start 1.2,3.4,90 --out run/");
   command->callback([&console, &exit_code, words] { exit_code = localize_run(console, *words); });

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "beaconless/io/grid_io.hpp"
-#include "beaconless/io/scan_selection.hpp"
 #include "beaconless/map/grid_builder.hpp"
 
 #include "commands.hpp"
@@ -31,22 +30,22 @@ Result<Pose2> laser_place(const MapWords& words, const PosesOf& poses) {
 }
 
 int build(const Console& console, const MapWords& words) {
-  const auto scans = io::ScanSelection::parse(words.scan.scans);
+  const auto scans = words.scan.selection();
   if (!scans) return console.fail(scans.error(), kUsage);
   ProblemLog problems;
-  io::RecordingOptions options{.topic = words.scan.topic, .gate = words.scan.gate()};
-  const auto quiet_recording = io::open_recording(words.recording, options);
-  if (!quiet_recording) return console.fail(quiet_recording.error());
-  options.on_problem = [&](const io::Problem& problem) { problems.add(problem); };
-  const auto recording = io::open_recording(words.recording, options);
+  problems.listening = false;
+  const auto recording = open_recording(words.recording, words.scan, problems);
   if (!recording) return console.fail(recording.error());
-  const auto poses = poses_of(words.poses, *quiet_recording, words.pose_topic);
+  ProblemLog pose_problems;
+  const auto poses = poses_of(words.poses, *recording, words.pose_topic, pose_problems);
+  pose_problems.report(console);
   if (!poses) return console.fail(poses.error());
   const auto base_from_laser = laser_place(words, *poses);
   if (!base_from_laser) return console.fail(base_from_laser.error(), kUsage);
   auto builder = GridBuilder::make(words.builder);
   if (!builder) return console.fail(builder.error(), kUsage);
 
+  problems.listening = true;
   std::size_t scan_index = 0;
   std::size_t used = 0;
   std::size_t without_pose = 0;
@@ -59,7 +58,8 @@ int build(const Console& console, const MapWords& words) {
     const auto map_from_base = scans->wants(index) ? poses->at(index, scan->stamp()) : std::nullopt;
     if (map_from_base) {
       if (auto added = builder.value().add(*scan, *map_from_base * *base_from_laser); !added)
-        return console.fail(added.error());
+        return console.fail(
+            {fmt::format("{}: scan {}", words.recording, index), added.error().what, added.error().remedy});
       ++used;
     } else if (scans->wants(index)) {
       ++without_pose;
@@ -108,10 +108,10 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_from_zero_on, "NUMBER >= 0");
   command
       ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_from_zero_on, "NUMBER >= 0");
   command->footer(
       "Example:  beaconless map build drive.log --poses recorded --resolution 0.05 --out hall.yaml");
   command->callback([&console, &exit_code, words] { exit_code = build(console, *words); });

@@ -23,7 +23,7 @@ int poses(const Console& console, const PosesWords& words) {
       words.recording,
       {.scans_optional = true, .on_problem = [&](const io::Problem& problem) { problems.add(problem); }});
   if (!recording) return console.fail(recording.error());
-  const auto found = poses_of("recorded", *recording, words.topic);
+  const auto found = poses_of("recorded", *recording, words.topic, problems);
   problems.report(console);
   if (!found) return console.fail(found.error());
   if (auto written = io::write_tum(words.out, found->trajectory); !written)

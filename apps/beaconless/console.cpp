@@ -14,12 +14,16 @@ constexpr auto kRedraw = std::chrono::milliseconds(100);
 
 }  // namespace
 
+std::string json_text(const nlohmann::json& object) {
+  return object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 void Console::say(const std::string& line) const {
   if (!json) fmt::print("{}\n", line);
 }
 
 void Console::result(const nlohmann::json& object) const {
-  if (json) fmt::print("{}\n", object.dump(2));
+  if (json) fmt::print("{}\n", json_text(object));
 }
 
 void Console::note(const std::string& line) const {
@@ -64,8 +68,14 @@ void Progress::draw() const {
 }
 
 void ProblemLog::add(const io::Problem& problem) {
+  if (!listening) return;
   ++count_;
   if (lines_.size() < kShownProblems) lines_.push_back(problem.where + ": " + problem.what);
+}
+
+void ProblemLog::forget() {
+  count_ = 0;
+  lines_.clear();
 }
 
 void ProblemLog::report(const Console& console) const {

@@ -21,6 +21,9 @@ enum ExitCode : int {
   kLost = 4,   ///< the robot was lost at the end of the recording
 };
 
+/// JSON as the program writes it. File names may hold any bytes; what is not UTF-8 becomes U+FFFD.
+std::string json_text(const nlohmann::json& object);
+
 /// Where the program's words go: results to standard output, everything about the work to standard error.
 ///
 /// `quiet` leaves only results and errors; `json` makes the result one JSON object and nothing else.
@@ -69,9 +72,15 @@ class Progress {
 };
 
 /// Gathers a reader's problems: the first few in full, all of them counted.
+///
+/// A reader tells its problems on every pass; `listening` is turned on for the one that counts, and `forget`
+/// makes way for the next.
 class ProblemLog {
  public:
+  bool listening = true;
+
   void add(const io::Problem& problem);
+  void forget();
   void report(const Console& console) const;
 
   std::uint64_t count() const { return count_; }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize_run.hpp"
 
-#include <filesystem>
-
 #include "beaconless/io/config_yaml.hpp"
 #include "beaconless/io/map_io.hpp"
-#include "beaconless/io/tum.hpp"
+#include "beaconless/io/yaml_tree.hpp"
 #include "beaconless/localize/make_localizer.hpp"
 
 #include "poses_of.hpp"
@@ -57,9 +55,10 @@ Result<FirstScan> first_scan(const io::Recording& recording, const io::ScanSelec
 }
 
 /// Where the robot starts, by the words of the call.
-Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& recording, const FirstScan& first) {
+Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& recording, const FirstScan& first,
+                         ProblemLog& problems) {
   if (!words.start.empty()) return pose_from_words("--start", words.start);
-  const auto poses = poses_of(words.start_from, recording, words.pose_topic);
+  const auto poses = poses_of(words.start_from, recording, words.pose_topic, problems);
   if (!poses) return poses.error();
   if (auto pose = poses->at(first.index, first.scan.stamp())) return *pose;
   // A reference that begins a moment later than the scans still tells where they begin.
@@ -75,41 +74,53 @@ Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& record
 
 int localize_run(const Console& console, const LocalizeWords& words) {
   // 1. What was asked for.
+  if (!words.config.empty())
+    if (auto readable = io::read_yaml(words.config); !readable) return console.fail(readable.error());
   const auto config = config_of(words);
   if (!config) return console.fail(config.error(), kUsage);
-  const auto scans = io::ScanSelection::parse(words.scan.scans);
+  const auto scans = words.scan.selection();
   if (!scans) return console.fail(scans.error(), kUsage);
   if (words.start.empty() == words.start_from.empty())
     return console.fail({"start", "the start pose is not given, or given twice",
                          "give --start x,y,deg or --start-from REF.tum|recorded"},
                         kUsage);
   // 2. Open what is to be read.
+  if (!words.out.empty())
+    if (auto made = make_folder(words.out); !made) return console.fail(made.error());
   ProblemLog problems;
-  io::RecordingOptions options{.topic = words.scan.topic, .gate = words.scan.gate()};
-  const auto quiet_recording = io::open_recording(words.recording, options);
-  if (!quiet_recording) return console.fail(quiet_recording.error());
-  options.on_problem = [&](const io::Problem& problem) { problems.add(problem); };
-  const auto recording = io::open_recording(words.recording, options);
+  const auto recording = open_recording(words.recording, words.scan, problems);
   if (!recording) return console.fail(recording.error());
   auto map = io::read_map(words.map);
   if (!map) return console.fail(map.error());
   const auto shared_map = std::make_shared<const Map>(*std::move(map));
-  const auto first = first_scan(*quiet_recording, *scans);
+  const auto first = first_scan(*recording, *scans);
+  if (!first) problems.report(console);
   if (!first) return console.fail(first.error());
-  const auto start = start_pose(words, *quiet_recording, *first);
+  problems.forget();
+  problems.listening = false;
+  ProblemLog pose_problems;
+  const auto start = start_pose(words, *recording, *first, pose_problems);
+  if (!start) pose_problems.report(console);
   if (!start) return console.fail(start.error(), words.start.empty() ? kData : kUsage);
   std::optional<Trajectory> reference;
   if (!words.reference.empty()) {
-    auto poses = poses_of(words.reference, *quiet_recording, words.pose_topic);
+    if (words.reference == words.start_from) pose_problems.forget();
+    auto poses = poses_of(words.reference, *recording, words.pose_topic, pose_problems);
     if (!poses) return console.fail(poses.error());
     reference = std::move(poses->trajectory);
   }
+  pose_problems.report(console);
   // 3. Localize.
   auto localizer = make_localizer(*config, *shared_map);
-  if (!localizer) return console.fail(localizer.error(), localizer.error().where == "map" ? kData : kUsage);
+  if (!localizer && localizer.error().where == "map")
+    return console.fail({words.map, localizer.error().what, localizer.error().remedy});
+  if (!localizer) return console.fail(localizer.error(), kUsage);
   (*localizer)->start_at(*start);
   Run run{.config = *config, .map = shared_map, .reference = std::move(reference), .first_scan = first->scan};
+  problems.listening = true;
   run.replay = replay(*recording, *scans, **localizer, config->base_from_laser, console);
+  if (run.replay.estimates.empty())
+    return console.fail({words.recording, "its scans are gone", "did it change while it was read?"});
   run.problems = problems.lines();
   problems.report(console);
   // 4. Write and tell what came of it.

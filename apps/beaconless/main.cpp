@@ -1,8 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <exception>
+#include <iostream>
 #include <string_view>
 
+#include "beaconless/core/suggest.hpp"
+
 #include "commands.hpp"
+
+namespace beaconless::cli {
+namespace {
+
+/// The words that could stand in the call: the verbs until one is chosen, then that verb's, and the options.
+std::vector<std::string> known_words(const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) known.push_back(option->get_name());
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty())
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+      known.push_back(verb->get_name());
+  for (const CLI::App* verb : chosen)
+    for (const std::string& word : known_words(*verb)) known.push_back(word);
+  return known;
+}
+
+/// Says what is wrong with the words of a call. A word that nothing knows comes first: what else is missing
+/// is often missing because of it.
+int refuse(const Console& console, const CLI::App& app, const CLI::ParseError& error) {
+  const auto unknown = app.remaining(true);
+  if (unknown.empty()) {
+    app.exit(error);
+    return kUsage;
+  }
+  const std::string near = nearest_word(unknown.front(), known_words(app));
+  return console.fail({unknown.front(), "there is no such verb or option",
+                       near.empty() ? "run with --help for all of them" : "did you mean \"" + near + "\"?"},
+                      kUsage);
+}
+
+}  // namespace
+}  // namespace beaconless::cli
 
 int main(int argc, char** argv) {
   using namespace beaconless::cli;
@@ -32,9 +68,12 @@ int main(int argc, char** argv) {
   try {
     if (std::string_view(BEACONLESS_BUILD_TYPE) == "Debug")
       console.warn("this is a Debug build, many times slower than a Release build");
+    if (argc < 2) std::cerr << app.help();
+    if (argc < 2) return kUsage;
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kGood : kUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return refuse(console, app, error);
   } catch (const std::exception& error) {
     return console.fail(
         {"beaconless", error.what(), "this should not happen: please report it with the command"});

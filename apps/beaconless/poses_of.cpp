@@ -79,10 +79,10 @@ std::optional<Pose2> PosesOf::at(std::size_t scan_index, Stamp stamp) const {
 }
 
 Result<PosesOf> poses_of(const std::string& tum_or_recorded, const io::Recording& recording,
-                         const std::string& topic) {
+                         const std::string& topic, ProblemLog& problems) {
   PosesOf poses;
   if (tum_or_recorded != "recorded") {
-    auto trajectory = io::read_tum(tum_or_recorded);
+    auto trajectory = io::read_tum(tum_or_recorded, [&](const io::Problem& p) { problems.add(p); });
     if (!trajectory) return trajectory.error();
     poses.source = tum_or_recorded;
     poses.trajectory = *trajectory;

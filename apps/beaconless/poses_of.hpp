@@ -10,6 +10,8 @@
 #include "beaconless/geometry/trajectory.hpp"
 #include "beaconless/io/recording.hpp"
 
+#include "console.hpp"
+
 namespace beaconless::cli {
 
 /// Poses of the robot that come with a recording or beside it.
@@ -27,8 +29,8 @@ struct PosesOf {
 ///
 /// Of the sources inside a recording the one named `topic` is taken; without a name, the pose fields of the
 /// scan lines, else the only reference topic, else the only odometry. Errors: none there, several and none
-/// named (all are listed).
+/// named (all are listed). Lines of the TUM file that are no pose go to `problems`.
 Result<PosesOf> poses_of(const std::string& tum_or_recorded, const io::Recording& recording,
-                         const std::string& topic);
+                         const std::string& topic, ProblemLog& problems);
 
 }  // namespace beaconless::cli

@@ -91,12 +91,9 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
   return page;
 }
 
-/// Writes the files of a run; gives their paths.
+/// Writes the files of a run into a folder that is there; gives their paths.
 Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& run,
                                              const nlohmann::json& summary, const report::RunReport& page) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) return Error{folder.string(), failed.message(), "choose another --out"};
   std::vector<std::string> paths;
   const auto path_of = [&](const char* name) { return paths.emplace_back((folder / name).string()); };
 
@@ -106,7 +103,7 @@ Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& 
   for (const PoseEstimate& estimate : run.replay.estimates) csv.write(estimate);
   if (auto written = csv.finish(); !written) return written.error();
   for (const auto& [name, text] : {std::pair{"config.yaml", config_text(run)},
-                                   {"summary.json", summary.dump(2) + "\n"},
+                                   {"summary.json", json_text(summary) + "\n"},
                                    {"map.svg", report::draw_run_svg(page)},
                                    {"report.html", report::html(page)}}) {
     const std::string path = path_of(name);
@@ -136,6 +133,13 @@ void tell(const Console& console, const Run& run, const nlohmann::json& summary,
 }
 
 }  // namespace
+
+Result<Done> make_folder(const std::string& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return Error{folder, failed.message(), "choose another --out"};
+  return Done{};
+}
 
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run) {
   std::optional<Judgement> judgement;

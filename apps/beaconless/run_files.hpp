@@ -25,6 +25,9 @@ struct Run {
   std::vector<std::string> problems;
 };
 
+/// Makes the folder for a run's files, before the work that fills them.
+Result<Done> make_folder(const std::string& folder);
+
 /// Writes trajectory.tum, estimates.csv, config.yaml, summary.json, map.svg and report.html where the words
 /// say, tells the result, and gives the exit code.
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run);

@@ -23,12 +23,36 @@ Result<Pose2> pose_from_words(std::string_view option, std::string_view text) {
   return Pose2{numbers[0], numbers[1], wrap_angle(radians(numbers[2]))};
 }
 
+std::string not_positive(const std::string& text) {
+  const auto number = parse_double(text);
+  return number && std::isfinite(*number) && *number > 0.0 ? "" : "\"" + text + "\" is no number above 0";
+}
+
+std::string not_from_zero_on(const std::string& text) {
+  const auto number = parse_double(text);
+  return number && std::isfinite(*number) && *number >= 0.0 ? "" : "\"" + text + "\" is no number from 0 on";
+}
+
 ScanGate ScanWords::gate() const {
   return {.stamp_is = stamp_is == "last"     ? StampIs::last_beam
                       : stamp_is == "middle" ? StampIs::middle_beam
                                              : StampIs::first_beam,
           .range_min_m = static_cast<float>(min_range_m),
           .range_max_m = static_cast<float>(max_range_m)};
+}
+
+Result<io::ScanSelection> ScanWords::selection() const {
+  auto selection = io::ScanSelection::parse(scans);
+  if (!selection) return Error{"--scans", selection.error().what, selection.error().remedy};
+  if (selection->start >= selection->stop)
+    return Error{"--scans", "\"" + scans + "\" takes no scan", "write start:stop with start below stop"};
+  return selection;
+}
+
+Result<io::Recording> open_recording(const std::string& path, const ScanWords& words, ProblemLog& problems) {
+  return io::open_recording(path, {.topic = words.topic,
+                                   .gate = words.gate(),
+                                   .on_problem = [&problems](const io::Problem& p) { problems.add(p); }});
 }
 
 std::optional<std::string> shipped_file(const std::string& relative_path) {

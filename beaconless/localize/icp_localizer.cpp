@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -72,14 +73,14 @@ PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
   MatchResult match = match_icp(points_, map_, guess, config_.icp, scratch_);
   // 4. Where that fit is hard to believe, fit from other starts too and take the best.
   if (first_scan_ || !match.usable() || health_.is_doubtful(match.on_map_ratio) || is_jump(match, prediction))
-    match = try_other_starts(match, guess);
-  first_scan_ = false;
+    match = try_other_starts(match, prediction);
+  const bool first = std::exchange(first_scan_, false);
   // 5. Take the fit as the pose, or go on by the motion alone.
   if (!match.usable())
     last_ = coast(prediction, scan->stamp(), "too few beams end near a wall of the map");
   else if (health_.lost() && health_.is_weak(match.on_map_ratio))
     last_ = coast(prediction, scan->stamp(), "the scan fits nowhere around the last trusted pose");
-  else if (health_.is_doubtful(match.on_map_ratio) && is_jump(match, prediction))
+  else if (!first && !health_.lost() && is_jump(match, prediction))
     last_ = coast(prediction, scan->stamp(), "the scan fits nowhere near the predicted pose");
   else
     last_ = accept(match, prediction, *scan);
@@ -103,19 +104,27 @@ bool IcpLocalizer<Index>::is_jump(const MatchResult& match, const Prediction& pr
 }
 
 template <SurfaceIndex Index>
-MatchResult IcpLocalizer<Index>::try_other_starts(const MatchResult& first, const Pose2& map_from_laser) {
+MatchResult IcpLocalizer<Index>::try_other_starts(const MatchResult& first, const Prediction& prediction) {
   LocalSearchConfig window = config_.search;
   if (health_.lost()) {
     window.window_m *= kLostWindow;
     window.step_m *= 1.5;
     window.window_deg = 180.0;
+    window.step_deg *= 2.0;
   }
+  // While the robot is not lost, a place that it cannot have reached since the last scan is no answer,
+  // however well the scan fits there.
+  const bool anywhere = first_scan_ || health_.lost();
   MatchResult best = first;
-  for (const StartPose& start : search_around(points_, map_, map_from_laser, window)) {
+  bool best_is_first = true;
+  if (!anywhere && is_jump(first, prediction)) best.misfit = 1.0;
+  const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
+  for (const StartPose& start : search_around(points_, map_, guess, window)) {
     const MatchResult other = match_icp(points_, map_, start.map_from_laser, config_.icp, scratch_);
-    if (!other.usable()) continue;
-    const bool is_first = best.map_from_laser == first.map_from_laser;
-    if (!best.usable() || other.misfit < best.misfit - (is_first ? kClearlyBetter : 0.0)) best = other;
+    if (!other.usable() || (!anywhere && is_jump(other, prediction))) continue;
+    if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : 0.0)) continue;
+    best = other;
+    best_is_first = false;
   }
   return best;
 }

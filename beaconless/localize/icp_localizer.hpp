@@ -27,7 +27,7 @@ class IcpLocalizer final : public Localizer {
  private:
   void load(const Scan& scan);
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
-  MatchResult try_other_starts(const MatchResult& first, const Pose2& map_from_laser);
+  MatchResult try_other_starts(const MatchResult& first, const Prediction& prediction);
   PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan);
   PoseEstimate coast(const Prediction& prediction, Stamp stamp, std::string_view reason);
 

@@ -7,6 +7,8 @@
 namespace beaconless {
 namespace {
 
+constexpr double kHopeless = 0.2;  // a start whose cost is so much above the best is not worth following
+
 std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points, int count) {
   const std::size_t stride = std::max<std::size_t>(1, points.size() / static_cast<std::size_t>(count));
   std::vector<Eigen::Vector2d> kept;
@@ -14,15 +16,17 @@ std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points, in
   return kept;
 }
 
-/// Mean truncated squared distance to the map, 0 … 1.
+/// Mean truncated squared distance to the map, 0 … 1; anything above `give_up` where it cannot be below that.
 template <SurfaceIndex Index>
 double misfit(std::span<const Eigen::Vector2d> arms, const Index& map, const Eigen::Vector2d& origin,
-              double truncate_m) {
+              double truncate_m, double give_up) {
   const double worst = truncate_m * truncate_m;
+  const double enough = give_up * worst * static_cast<double>(arms.size());
   double sum = 0.0;
   for (const Eigen::Vector2d& arm : arms) {
     const auto surface = map.nearest(origin + arm);
     sum += surface ? std::min(worst, surface->distance_m * surface->distance_m) : worst;
+    if (sum > enough) break;
   }
   return sum / (worst * static_cast<double>(arms.size()));
 }
@@ -53,6 +57,7 @@ std::vector<StartPose> search(std::span<const Eigen::Vector2d> points, const Ind
   const int turns = static_cast<int>(std::ceil(config.window_deg / config.step_deg));
   const int moves = static_cast<int>(std::ceil(config.window_m / config.step_m));
   std::vector<StartPose> poses;
+  double best_cost = 1.0 + config.far_penalty;
   for (int k = -turns; k <= turns; ++k) {
     const double theta = wrap_angle(guess.theta_rad + radians(k * config.step_deg));
     const Eigen::Matrix2d rotation = Pose2{0.0, 0.0, theta}.rotation();
@@ -63,9 +68,11 @@ std::vector<StartPose> search(std::span<const Eigen::Vector2d> points, const Ind
         const Pose2 pose{guess.x_m + i * config.step_m, guess.y_m + j * config.step_m, theta};
         const double away = std::max(
             {std::abs(k) / std::max(1.0, 1.0 * turns), std::hypot(i, j) / std::max(1.0, 1.0 * moves)});
-        poses.push_back({pose, misfit(std::span<const Eigen::Vector2d>(arms), map, pose.translation(),
-                                      config.truncate_m) +
-                                   config.far_penalty * away * away});
+        const double penalty = config.far_penalty * away * away;
+        const double cost = penalty + misfit(std::span<const Eigen::Vector2d>(arms), map, pose.translation(),
+                                             config.truncate_m, best_cost + kHopeless - penalty);
+        best_cost = std::min(best_cost, cost);
+        if (cost <= best_cost + kHopeless) poses.push_back({pose, cost});
       }
     }
   }

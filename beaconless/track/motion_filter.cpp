@@ -5,6 +5,13 @@ namespace beaconless {
 namespace {
 
 constexpr double kNominalStep_s = 0.1;  // assumed between scans whose stamps do not tell
+constexpr double kUnknownSpeed_mps = 1.0;
+constexpr double kUnknownTurn_radps = 1.0;
+
+double square(double value) { return value * value; }
+
+/// How far a value is moved towards a measurement of it.
+double gain(double variance, double noise_variance) { return variance / (variance + noise_variance + 1e-12); }
 
 }  // namespace
 
@@ -22,30 +29,45 @@ void MotionFilter::start_at(const Pose2& map_from_base) {
   last_ = map_from_base;
 }
 
-Prediction MotionFilter::predict(Stamp stamp) const {
-  if (!stamped_) return {last_, covariance_};
-  double elapsed_s = seconds_between(stamp_, stamp);
-  const bool told = elapsed_s > 0.0;
-  if (!told) elapsed_s = step_s_ > 0.0 ? step_s_ : kNominalStep_s;
+double MotionFilter::elapsed_s(Stamp stamp) const {
+  const double elapsed_s = seconds_between(stamp_, stamp);
+  if (elapsed_s > 0.0) return elapsed_s;
+  return usual_step_s_ > 0.0 ? usual_step_s_ : kNominalStep_s;
+}
 
-  Prediction prediction{last_, covariance_};
-  if (step_s_ > 0.0 && elapsed_s <= config_.max_gap_s) {
-    prediction.twist_per_s = (1.0 / step_s_) * step_;
-    prediction.map_from_base = last_ * Pose2::exp(elapsed_s * prediction.twist_per_s);
+Prediction MotionFilter::predict(Stamp stamp) const {
+  Prediction prediction{last_, covariance_, {}};
+  if (!stamped_) return prediction;
+  const double dt = elapsed_s(stamp);
+  if (dt <= config_.max_gap_s) {
+    prediction.twist_per_s = twist_per_s_;
+    prediction.map_from_base = last_ * Pose2::exp(dt * twist_per_s_);
   }
-  const double grown_s2 = elapsed_s * elapsed_s;
-  const double slack_m = config_.acceleration_mps2 * grown_s2;
-  const double slack_rad = config_.turn_acceleration_radps2 * grown_s2;
-  prediction.covariance +=
-      Eigen::Vector3d(slack_m * slack_m, slack_m * slack_m, slack_rad * slack_rad).asDiagonal();
+  // The velocity may be wrong, and may have changed since.
+  const double move_m2 = dt * dt * (speed_variance_ + square(config_.acceleration_mps2 * dt));
+  const double turn_rad2 = dt * dt * (turn_variance_ + square(config_.turn_acceleration_radps2 * dt));
+  prediction.covariance += Eigen::Vector3d(move_m2, move_m2, turn_rad2).asDiagonal();
   return prediction;
 }
 
 void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
   if (stamped_) {
-    const double elapsed_s = seconds_between(stamp_, stamp);
-    step_ = (last_.inverse() * map_from_base).log();
-    step_s_ = elapsed_s > 0.0 ? elapsed_s : (step_s_ > 0.0 ? step_s_ : kNominalStep_s);
+    const double dt = elapsed_s(stamp);
+    const Twist2 told = (1.0 / dt) * (last_.inverse() * map_from_base).log();
+    const Eigen::Matrix3d noise = (covariance_ + covariance) / (dt * dt);
+    speed_variance_ += square(config_.acceleration_mps2 * dt);
+    turn_variance_ += square(config_.turn_acceleration_radps2 * dt);
+    const double move_gain = gain(speed_variance_, 0.5 * noise.topLeftCorner<2, 2>().trace());
+    const double turn_gain = gain(turn_variance_, noise(2, 2));
+    twist_per_s_.x_m += move_gain * (told.x_m - twist_per_s_.x_m);
+    twist_per_s_.y_m += move_gain * (told.y_m - twist_per_s_.y_m);
+    twist_per_s_.theta_rad += turn_gain * (told.theta_rad - twist_per_s_.theta_rad);
+    speed_variance_ *= 1.0 - move_gain;
+    turn_variance_ *= 1.0 - turn_gain;
+    usual_step_s_ = dt;
+  } else {
+    speed_variance_ = square(kUnknownSpeed_mps);
+    turn_variance_ = square(kUnknownTurn_radps);
   }
   last_ = map_from_base;
   covariance_ = covariance;

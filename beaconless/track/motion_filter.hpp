@@ -25,11 +25,13 @@ struct Prediction {
   Twist2 twist_per_s;  ///< base frame
 };
 
-/// Carries the motion of the last two poses on to the next scan: constant velocity, no odometry needed.
+/// Carries the motion of the last poses on to the next scan: constant velocity, no odometry needed.
 ///
-/// Source: dissertation 4.4 works without wheels; the constant-twist model is that of Vizzo et al.,
-/// "KISS-ICP", 2023. Differs: uncertainty grows with the accelerations of MotionConfig; where stamps stand
-/// still or run backwards the last step from scan to scan is repeated.
+/// Every new pose tells a velocity, which is believed by its own noise against what accelerations allow: two
+/// scans half a millisecond apart say nothing about speed, two scans half a second apart say it all. Source:
+/// dissertation 4.4 works without wheels; Kalman filter of a velocity that walks randomly, one gain for
+/// translation and one for rotation.
+/// Differs: where stamps stand still or run backwards the usual interval is assumed.
 class MotionFilter {
  public:
   explicit MotionFilter(const MotionConfig& config = {}) : config_(config) {}
@@ -46,9 +48,13 @@ class MotionFilter {
   Pose2 last_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Stamp stamp_;
-  Twist2 step_;          // base frame, over step_s_
-  double step_s_ = 0.0;  // 0: no motion known yet
   bool stamped_ = false;
+  double usual_step_s_ = 0.0;    // 0: no two poses yet
+  Twist2 twist_per_s_;           // base frame
+  double speed_variance_ = 0.0;  // of each of its translations, m²/s²
+  double turn_variance_ = 0.0;   // of its rotation, rad²/s²
+
+  double elapsed_s(Stamp stamp) const;
 };
 
 }  // namespace beaconless

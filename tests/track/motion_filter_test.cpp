@@ -14,7 +14,7 @@ MotionFilter moving_since_zero() {
   MotionFilter filter;
   filter.start_at({1, 2, 0.5});
   for (const double t : {0.0, 0.1, 0.2})
-    filter.correct(at(t), Pose2{1, 2, 0.5} * Pose2::exp(t * kTwistPerS), 1e-6 * Eigen::Matrix3d::Identity());
+    filter.correct(at(t), Pose2{1, 2, 0.5} * Pose2::exp(t * kTwistPerS), Eigen::Matrix3d::Zero());
   return filter;
 }
 
