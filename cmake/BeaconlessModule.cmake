@@ -10,7 +10,8 @@ target_compile_options(beaconless_build_flags INTERFACE -Wall -Wextra -Wpedantic
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                        $<$<BOOL:${BEACONLESS_PARANOID}>:-Werror>)
 if(BEACONLESS_SANITIZE)
-  target_compile_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE}
+  # With sanitizers GCC 12 takes a moved std::variant for an uninitialised one: -Wno-maybe-uninitialized.
+  target_compile_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE} -Wno-maybe-uninitialized
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE})
 endif()
