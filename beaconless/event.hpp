@@ -21,7 +21,8 @@ struct Odometry {
   friend bool operator==(const Odometry&, const Odometry&) = default;
 };
 
-/// Where somebody else says the robot was: a reflector system, motion capture, the pose field of a log, the simulator.
+/// Where somebody else says the robot was: a reflector system, motion capture, the pose field of a log, the
+/// simulator.
 struct ReferencePose {
   Stamp stamp;
   Pose2 map_from_base;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <string_view>
+
+#include <Eigen/Core>
 
 #include "beaconless/core/stamp.hpp"
 #include "beaconless/geometry/pose2.hpp"
@@ -20,26 +21,31 @@ enum class Status : int {
 
 constexpr std::string_view to_string(Status status) {
   switch (status) {
-    case Status::not_started: return "not_started";
-    case Status::not_a_scan: return "not_a_scan";
-    case Status::ok: return "ok";
-    case Status::degraded: return "degraded";
-    case Status::lost: return "lost";
+    case Status::not_started:
+      return "not_started";
+    case Status::not_a_scan:
+      return "not_a_scan";
+    case Status::ok:
+      return "ok";
+    case Status::degraded:
+      return "degraded";
+    case Status::lost:
+      return "lost";
   }
   return "unknown";
 }
 
 /// Everything the robot learns from an event. The one way out.
 ///
-/// All numbers are finite whatever came in. The covariance is ordered x, y, theta, in m², m·rad, rad², with x and y
-/// along the map axes; its default says that nothing is known.
+/// All numbers are finite whatever came in. The covariance is ordered x, y, theta, in m², m·rad, rad², with x
+/// and y along the map axes; its default says that nothing is known.
 struct PoseEstimate {
   Stamp stamp;
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Vector3d(1e6, 1e6, 10.0).asDiagonal();
   Status status = Status::not_started;
   std::string_view reason = "no start pose was given";  ///< why the status is not ok; static text, "" when ok
-  double quality = 0.0;                                 ///< 0 … 1: share of the scan that the map explains here
+  double quality = 0.0;  ///< 0 … 1: share of the scan that the map explains here
 
   bool ok() const { return status == Status::ok; }
 

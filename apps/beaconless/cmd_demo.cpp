@@ -29,7 +29,7 @@ int demo(const Console& console, const DemoWords& words) {
   localize.title = "Demo: " + words.scenario;
   localize.command_line = "beaconless demo --scenario " + words.scenario + " --out " + words.out;
   const int exit_code = localize_run(console, localize);
-  if (exit_code == kGood)
+  if (exit_code == exit_good)
     console.say("\nopen this in a browser:  " +
                 std::filesystem::absolute(words.out + "/report.html").lexically_normal().string());
   return exit_code;

@@ -67,7 +67,7 @@ int evaluate(const Console& console, const EvaluateWords& words) {
   const auto sensor = sensor_of(words);
   if (!sensor) return console.fail(sensor.error());
   const auto base_from_laser = pose_from_words("--base-from-laser", words.base_from_laser);
-  if (!base_from_laser) return console.fail(base_from_laser.error(), kUsage);
+  if (!base_from_laser) return console.fail(base_from_laser.error(), exit_usage);
   // 3. Compare.
   const Judgement judgement =
       judge(estimate, *reference, map ? &*map : nullptr, *sensor, *base_from_laser, words.max_gap_s);
@@ -93,7 +93,7 @@ int evaluate(const Console& console, const EvaluateWords& words) {
     object["nees"] = {{"mean", consistency.mean_nees}, {"low", consistency.low}, {"high", consistency.high}};
   }
   console.result(object);
-  return kGood;
+  return exit_good;
 }
 
 }  // namespace

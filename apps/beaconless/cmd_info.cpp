@@ -64,7 +64,7 @@ int map_info(const Console& console, const std::string& path) {
   const auto map = io::read_map(path);
   if (!map) return console.fail(map.error());
   console.result(std::visit([&](const auto& kind) { return describe_map(console, kind); }, *map));
-  return kGood;
+  return exit_good;
 }
 
 nlohmann::json to_json(const io::PoseSource& source) {
@@ -145,7 +145,7 @@ int info(const Console& console, const InfoWords& words) {
   if (summary->scan_topic.empty() && summary->scans == 0)
     console.say("no scans were read; where there are several topics with scans, choose one with --topic");
   console.result(to_json(*summary));
-  return kGood;
+  return exit_good;
 }
 
 int doctor(const Console& console, const InfoWords& words) {
@@ -165,7 +165,7 @@ int doctor(const Console& console, const InfoWords& words) {
   }
   if (findings.empty() && problems.count() == 0) console.say("nothing unusual");
   console.result({{"findings", list}, {"problems", problems.lines()}});
-  return kGood;
+  return exit_good;
 }
 
 using Verb = int (*)(const Console&, const InfoWords&);

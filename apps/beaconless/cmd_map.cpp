@@ -31,7 +31,7 @@ Result<Pose2> laser_place(const MapWords& words, const PosesOf& poses) {
 
 int build(const Console& console, const MapWords& words) {
   const auto scans = words.scan.selection();
-  if (!scans) return console.fail(scans.error(), kUsage);
+  if (!scans) return console.fail(scans.error(), exit_usage);
   ProblemLog problems;
   problems.listening = false;
   const auto recording = open_recording(words.recording, words.scan, problems);
@@ -41,9 +41,9 @@ int build(const Console& console, const MapWords& words) {
   pose_problems.report(console);
   if (!poses) return console.fail(poses.error());
   const auto base_from_laser = laser_place(words, *poses);
-  if (!base_from_laser) return console.fail(base_from_laser.error(), kUsage);
+  if (!base_from_laser) return console.fail(base_from_laser.error(), exit_usage);
   auto builder = GridBuilder::make(words.builder);
-  if (!builder) return console.fail(builder.error(), kUsage);
+  if (!builder) return console.fail(builder.error(), exit_usage);
 
   problems.listening = true;
   std::size_t scan_index = 0;
@@ -81,7 +81,7 @@ int build(const Console& console, const MapWords& words) {
                   {"resolution_m", grid.resolution_m},
                   {"scans", used},
                   {"without_pose", without_pose}});
-  return kGood;
+  return exit_good;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ int params(const Console& console, bool markdown) {
   for (const Method& method : methods())
     names.push_back({{"name", method.name}, {"sentence", method.sentence}});
   console.result({{"parameters", list}, {"methods", names}});
-  return kGood;
+  return exit_good;
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ int poses(const Console& console, const PosesWords& words) {
                   {"source", found->source},
                   {"poses", found->trajectory.size()},
                   {"length_m", found->trajectory.length_m()}});
-  return kGood;
+  return exit_good;
 }
 
 }  // namespace

@@ -22,19 +22,19 @@ int list_scenarios(const Console& console) {
   const std::string folder = shipped_file("scenarios").value_or("");
   nlohmann::json list = nlohmann::json::array();
   for (const std::string& name : io::scenario_names(folder)) {
-    const auto scenario = io::read_scenario(folder + "/" + name + ".yaml");
+    const auto scenario = io::read_scenario(fmt::format("{}/{}.yaml", folder, name));
     const std::string description = scenario ? scenario->description : to_string(scenario.error());
     console.say(fmt::format("{:<24}{}", name, description));
     list.push_back({{"name", name}, {"description", description}});
   }
   console.result({{"scenarios", list}});
-  return list.empty() ? kData : kGood;
+  return list.empty() ? exit_data : exit_good;
 }
 
 int simulate(const Console& console, const SimulateWords& words) {
   if (words.scenario.empty()) return list_scenarios(console);
   if (words.out.empty())
-    return console.fail({"--out", "is needed", "name a folder for the recording"}, kUsage);
+    return console.fail({"--out", "is needed", "name a folder for the recording"}, exit_usage);
   const auto files = simulate_run(console, words.scenario, words.seed, words.out);
   if (!files) return console.fail(files.error());
   console.say("written:");
@@ -47,7 +47,7 @@ int simulate(const Console& console, const SimulateWords& words) {
                   {"truth", files->truth},
                   {"plan", files->plan},
                   {"base_from_laser", files->base_from_laser}});
-  return kGood;
+  return exit_good;
 }
 
 }  // namespace

@@ -15,10 +15,10 @@ namespace beaconless::cli {
 
 /// How the program ends.
 enum ExitCode : int {
-  kGood = 0,
-  kUsage = 2,  ///< the words of the call
-  kData = 3,   ///< a file that cannot be read, written or used
-  kLost = 4,   ///< the robot was lost at the end of the recording
+  exit_good = 0,
+  exit_usage = 2,  ///< the words of the call
+  exit_data = 3,   ///< a file that cannot be read, written or used
+  exit_lost = 4,   ///< the robot was lost at the end of the recording
 };
 
 /// JSON as the program writes it. File names may hold any bytes; what is not UTF-8 becomes U+FFFD.
@@ -45,7 +45,7 @@ class Console {
   void warn(const std::string& line) const;
 
   /// Says what went wrong and gives the exit code for it.
-  int fail(const Error& error, int exit_code = kData) const;
+  int fail(const Error& error, int exit_code = exit_data) const;
 };
 
 /// A line that is drawn again and again while the work goes on: share done, rate and time left. Only on a

@@ -77,13 +77,13 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   if (!words.config.empty())
     if (auto readable = io::read_yaml(words.config); !readable) return console.fail(readable.error());
   const auto config = config_of(words);
-  if (!config) return console.fail(config.error(), kUsage);
+  if (!config) return console.fail(config.error(), exit_usage);
   const auto scans = words.scan.selection();
-  if (!scans) return console.fail(scans.error(), kUsage);
+  if (!scans) return console.fail(scans.error(), exit_usage);
   if (words.start.empty() == words.start_from.empty())
     return console.fail({"start", "the start pose is not given, or given twice",
                          "give --start x,y,deg or --start-from REF.tum|recorded"},
-                        kUsage);
+                        exit_usage);
   // 2. Open what is to be read.
   if (!words.out.empty())
     if (auto made = make_folder(words.out); !made) return console.fail(made.error());
@@ -101,7 +101,7 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   ProblemLog pose_problems;
   const auto start = start_pose(words, *recording, *first, pose_problems);
   if (!start) pose_problems.report(console);
-  if (!start) return console.fail(start.error(), words.start.empty() ? kData : kUsage);
+  if (!start) return console.fail(start.error(), words.start.empty() ? exit_data : exit_usage);
   std::optional<Trajectory> reference;
   if (!words.reference.empty()) {
     if (words.reference == words.start_from) pose_problems.forget();
@@ -114,7 +114,7 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   auto localizer = make_localizer(*config, *shared_map);
   if (!localizer && localizer.error().where == "map")
     return console.fail({words.map, localizer.error().what, localizer.error().remedy});
-  if (!localizer) return console.fail(localizer.error(), kUsage);
+  if (!localizer) return console.fail(localizer.error(), exit_usage);
   (*localizer)->start_at(*start);
   Run run{.config = *config, .map = shared_map, .reference = std::move(reference), .first_scan = first->scan};
   problems.listening = true;

@@ -29,12 +29,12 @@ int refuse(const Console& console, const CLI::App& app, const CLI::ParseError& e
   const auto unknown = app.remaining(true);
   if (unknown.empty()) {
     app.exit(error);
-    return kUsage;
+    return exit_usage;
   }
   const std::string near = nearest_word(unknown.front(), known_words(app));
   return console.fail({unknown.front(), "there is no such verb or option",
                        near.empty() ? "run with --help for all of them" : "did you mean \"" + near + "\"?"},
-                      kUsage);
+                      exit_usage);
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ int refuse(const Console& console, const CLI::App& app, const CLI::ParseError& e
 int main(int argc, char** argv) {
   using namespace beaconless::cli;
   Console console;
-  int exit_code = kGood;
+  int exit_code = exit_good;
 
   CLI::App app{"beaconless tells a mobile robot where it is, from its laser scanner and a map.",
                "beaconless"};
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     if (std::string_view(BEACONLESS_BUILD_TYPE) == "Debug")
       console.warn("this is a Debug build, many times slower than a Release build");
     if (argc < 2) std::cerr << app.help();
-    if (argc < 2) return kUsage;
+    if (argc < 2) return exit_usage;
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);

@@ -54,11 +54,11 @@ std::string names_of(const Sources& sources) {
 
 /// The source that is meant, or why there is none.
 Result<std::string> choose(const Sources& sources, const io::Recording& recording, const std::string& topic) {
-  if (!topic.empty() && sources.count(topic) == 0)
+  if (!topic.empty() && !sources.contains(topic))
     return Error{recording.path(), "there are no poses under \"" + topic + "\"",
                  "there are: " + names_of(sources)};
   if (!topic.empty()) return topic;
-  if (sources.count(recording.scan_topic()) != 0) return recording.scan_topic();
+  if (sources.contains(recording.scan_topic())) return recording.scan_topic();
   for (const bool want_reference : {true, false}) {
     std::vector<std::string> fitting;
     for (const auto& [name, source] : sources)

@@ -159,9 +159,9 @@ int finish_run(const Console& console, const LocalizeWords& words, const Run& ru
     for (const std::string& path : *paths) console.say("  " + path);
   }
   console.result(summary);
-  if (run.replay.estimates.back().status != Status::lost) return kGood;
+  if (run.replay.estimates.back().status != Status::lost) return exit_good;
   console.warn("the robot is lost at the end of the recording");
-  return kLost;
+  return exit_lost;
 }
 
 }  // namespace beaconless::cli

@@ -59,7 +59,7 @@ Result<Done> apply_all(const std::string& path, const std::vector<Setting>& sett
   for (const Setting& setting : settings) {
     if (!seen.insert(setting.name).second)
       return Error{where_in(path, *setting.value), setting.name + " is set twice", "keep one of the two"};
-    if (const auto set = apply(path, setting, fields); !set) return set;
+    if (auto set = apply(path, setting, fields); !set) return set;
   }
   return Done{};
 }
@@ -104,8 +104,9 @@ Result<Done> read_config(const std::string& path, const std::vector<Field>& fiel
   collect(fields, *yaml, "", settings);
 
   std::vector<std::string> before;
+  before.reserve(fields.size());
   for (const Field& field : fields) before.push_back(field.text());
-  const auto applied = apply_all(path, settings, fields);
+  auto applied = apply_all(path, settings, fields);
   if (!applied)
     for (std::size_t i = 0; i < fields.size(); ++i) (void)fields[i].set(before[i]);
   return applied;

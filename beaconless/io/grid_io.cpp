@@ -197,7 +197,7 @@ Result<Done> write_grid(const std::string& path, const OccupancyGrid& grid) {
       image.shades.push_back(grid.is_occupied({x, y}) ? 0
                              : grid.is_free({x, y})   ? kFreeShade
                                                       : unknown_shade);
-  const auto written = write_pgm(image_path.string(), image);
+  auto written = write_pgm(image_path.string(), image);
   if (!written) return written;
 
   return write_whole_file(

@@ -18,13 +18,14 @@ const std::array<Method, 1> kMethods = {
 
 Error unknown_method(const std::string& name) {
   std::vector<std::string> names;
+  names.reserve(kMethods.size());
   for (const Method& method : kMethods) names.push_back(method.name);
   const std::string near = nearest_word(name, names);
   return {"method", "there is no method \"" + name + "\"",
           near.empty() ? "`beaconless params` lists what there is" : "did you mean \"" + near + "\"?"};
 }
 
-Result<std::unique_ptr<Localizer>> make_icp_full(LocalizerConfig config, const FloorPlan& plan) {
+Result<std::unique_ptr<Localizer>> make_icp_full(const LocalizerConfig& config, const FloorPlan& plan) {
   WallIndex walls(plan, config.icp.max_pair_distance_m);
   if (walls.wall_count() == 0)
     return Error{"map", "the floor plan has no walls", "a wall is two points or more"};
@@ -46,6 +47,7 @@ Result<std::unique_ptr<Localizer>> make_icp_full(LocalizerConfig config, const O
 
 void describe(Fields& fields, LocalizerConfig& config) {
   Words names;
+  names.reserve(kMethods.size());
   for (const Method& method : kMethods) names.push_back(method.name);
   fields("method", config.method, names, "how a pose is found");
   fields("base_from_laser.x_m", config.base_from_laser.x_m, {-100.0, 100.0},

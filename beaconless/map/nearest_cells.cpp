@@ -90,7 +90,8 @@ std::vector<std::int32_t> nearest_seeds(int width, int height, std::span<const s
     envelope.clear();
     for (int x = 0; x < width; ++x) {
       if (row[x] == kNone) continue;
-      const double dy = seeds[static_cast<std::size_t>(row[x])] / width - y;
+      const int seed_y = seeds[static_cast<std::size_t>(row[x])] / width;
+      const double dy = seed_y - y;
       if (std::abs(dy) <= reach_cells) envelope.add(x, dy * dy, row[x]);
     }
     std::fill(row, row + width, kNone);

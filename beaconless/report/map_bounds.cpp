@@ -66,7 +66,7 @@ Eigen::AlignedBox2d bounds_of_run(const Map& map, std::span<const PoseEstimate> 
 
   const double margin = std::max(kMargin_ratio * box.sizes().maxCoeff(), 0.1);
   const Eigen::Vector2d size = (box.sizes() + Eigen::Vector2d::Constant(2.0 * margin)).cwiseMax(kSmallest_m);
-  return Eigen::AlignedBox2d(box.center() - 0.5 * size, box.center() + 0.5 * size);
+  return {box.center() - 0.5 * size, box.center() + 0.5 * size};
 }
 
 }  // namespace beaconless::report
