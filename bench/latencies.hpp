@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <time.h>
+
+namespace beaconless::bench {
+
+/// Processor time of single calls, because a robot waits for the slowest scan and not for the mean one.
+///
+/// Not the wall clock: the calls do not wait for anything, and on a shared machine the wall clock's p99 is
+/// that of the other programs.
+class Latencies {
+ public:
+  /// Calls `work()`, remembers how long it took and gives what it gave.
+  template <class Work>
+  auto measure(Work&& work) {
+    const double begin_us = thread_time_us();
+    auto result = work();
+    benchmark::DoNotOptimize(result);
+    taken_us_.push_back(thread_time_us() - begin_us);
+    return result;
+  }
+
+  /// Adds the counters p50_us, p99_us and max_us (nearest ranks).
+  void report(benchmark::State& state) {
+    if (taken_us_.empty()) return;
+    std::sort(taken_us_.begin(), taken_us_.end());
+    state.counters["p50_us"] = rank(0.50);
+    state.counters["p99_us"] = rank(0.99);
+    state.counters["max_us"] = taken_us_.back();
+  }
+
+ private:
+  static double thread_time_us() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+  }
+
+  double rank(double share) const {
+    return taken_us_[static_cast<std::size_t>(share * static_cast<double>(taken_us_.size() - 1) + 0.5)];
+  }
+
+  std::vector<double> taken_us_;
+};
+
+}  // namespace beaconless::bench
