@@ -12,7 +12,7 @@ void describe(Fields& fields, HealthConfig& config) {
   fields("weak_ratio", config.weak_ratio, {0.0, 1.0},
          "a fit that explains less of the scan than this is weak");
   fields("found_ratio", config.found_ratio, {0.0, 1.0},
-         "a lost robot is found by a fit that explains at least this share of the scan");
+         "a robot is found, at the start or again, by a fit that explains this share of the scan");
   fields("lost_ratio", config.lost_ratio, {0.0, 1.0},
          "a fit that explains less of the scan than this is no fit");
   fields("lost_after_scans", config.lost_after_scans, {1, 100000}, "so many weak fits in a row mean lost");
@@ -20,7 +20,7 @@ void describe(Fields& fields, HealthConfig& config) {
 }
 
 bool Health::is_weak(double on_map_ratio) const {
-  const double least = lost() ? config_.found_ratio : config_.weak_ratio;
+  const double least = at_home() ? config_.weak_ratio : config_.found_ratio;
   return on_map_ratio < std::max(least, config_.weak_share * usual_ratio_);
 }
 
@@ -28,7 +28,8 @@ Status Health::judge(double on_map_ratio) {
   if (is_weak(on_map_ratio)) {
     ++weak_in_a_row_;
     // What was usual elsewhere must not keep a robot from being well here.
-    if (on_map_ratio >= config_.weak_ratio) usual_ratio_ += config_.forget * (on_map_ratio - usual_ratio_);
+    if (usual_ratio_ > 0.0 && on_map_ratio >= config_.weak_ratio)
+      usual_ratio_ += config_.forget * (on_map_ratio - usual_ratio_);
     return lost() || on_map_ratio < config_.lost_ratio ? Status::lost : Status::degraded;
   }
   weak_in_a_row_ = 0;

@@ -12,7 +12,7 @@ struct HealthConfig {
       0.9;  ///< a fit that explains less than this share of what is usual here is tried elsewhere too
   double weak_share = 0.75;  ///< … and less than this is weak
   double weak_ratio = 0.35;  ///< a fit that explains less of the scan than this is weak in any case
-  double found_ratio = 0.5;  ///< a lost robot is found again by a fit that explains at least this much
+  double found_ratio = 0.5;  ///< a robot is found, at the start or again, by a fit that explains this much
   double lost_ratio = 0.25;  ///< a fit that explains less than this is no fit
   int lost_after_scans = 8;  ///< so many weak fits in a row, and the robot is lost
   double forget = 0.05;      ///< how fast "usual" follows the scans
@@ -30,13 +30,18 @@ class Health {
   explicit Health(const HealthConfig& config = {}) : config_(config) {}
 
   /// True where a fit is not to be believed without trying other starts.
-  bool is_doubtful(double on_map_ratio) const { return on_map_ratio < config_.doubt_share * usual_ratio_; }
+  bool is_doubtful(double on_map_ratio) const {
+    return is_weak(on_map_ratio) || on_map_ratio < config_.doubt_share * usual_ratio_;
+  }
 
   /// True where a fit explains too little to be trusted by itself.
   bool is_weak(double on_map_ratio) const;
 
   /// Takes in the scan's final fit; gives ok, degraded or lost.
   Status judge(double on_map_ratio);
+
+  /// True after a good fit, until lost: then a fit need not convince by itself.
+  bool at_home() const { return usual_ratio_ > 0.0 && !lost(); }
 
   bool lost() const { return weak_in_a_row_ >= config_.lost_after_scans; }
 

@@ -72,19 +72,32 @@ PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
   // 3. Fit it to the map from there.
   MatchResult match = match_icp(points_, map_, guess, config_.icp, scratch_);
   // 4. Where that fit is hard to believe, fit from other starts too and take the best.
-  if (first_scan_ || !match.usable() || health_.is_doubtful(match.on_map_ratio) || is_jump(match, prediction))
-    match = try_other_starts(match, prediction);
-  const bool first = std::exchange(first_scan_, false);
+  if (is_worth_searching(match, prediction)) match = try_other_starts(match, prediction);
   // 5. Take the fit as the pose, or go on by the motion alone.
-  if (!match.usable())
-    last_ = coast(prediction, scan->stamp(), "too few beams end near a wall of the map");
-  else if (health_.lost() && health_.is_weak(match.on_map_ratio))
-    last_ = coast(prediction, scan->stamp(), "the scan fits nowhere around the last trusted pose");
-  else if (!first && !health_.lost() && is_jump(match, prediction))
-    last_ = coast(prediction, scan->stamp(), "the scan fits nowhere near the predicted pose");
-  else
-    last_ = accept(match, prediction, *scan);
+  const std::string_view doubt = reason_to_coast(match, prediction);
+  last_ = doubt.empty() ? accept(match, prediction, *scan) : coast(prediction, scan->stamp(), doubt);
+  first_scan_ = false;
   return last_;
+}
+
+template <SurfaceIndex Index>
+bool IcpLocalizer<Index>::is_worth_searching(const MatchResult& match, const Prediction& prediction) {
+  if (health_.lost()) return lost_scans_++ % config_.search.lost_stride == 0;
+  lost_scans_ = 0;
+  return first_scan_ || !match.usable() || health_.is_doubtful(match.on_map_ratio) ||
+         is_jump(match, prediction);
+}
+
+template <SurfaceIndex Index>
+std::string_view IcpLocalizer<Index>::reason_to_coast(const MatchResult& match,
+                                                      const Prediction& prediction) const {
+  if (!match.usable()) return "too few beams end near a wall of the map";
+  if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
+    return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
+                                          : "the scan fits nowhere around the last trusted pose";
+  if (!first_scan_ && !health_.lost() && is_jump(match, prediction))
+    return "the scan fits nowhere near the predicted pose";
+  return {};
 }
 
 template <SurfaceIndex Index>

@@ -27,6 +27,8 @@ class IcpLocalizer final : public Localizer {
  private:
   void load(const Scan& scan);
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
+  bool is_worth_searching(const MatchResult& match, const Prediction& prediction);
+  std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
   MatchResult try_other_starts(const MatchResult& first, const Prediction& prediction);
   PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan);
   PoseEstimate coast(const Prediction& prediction, Stamp stamp, std::string_view reason);
@@ -41,6 +43,7 @@ class IcpLocalizer final : public Localizer {
   PoseEstimate last_;
   bool started_ = false;
   bool first_scan_ = true;
+  int lost_scans_ = 0;
 };
 
 }  // namespace beaconless

@@ -90,6 +90,8 @@ void describe(Fields& fields, LocalSearchConfig& config) {
   fields("truncate_m", config.truncate_m, {0.01, 10.0},
          "points further from every wall than this all count the same");
   fields("far_penalty", config.far_penalty, {0.0, 10.0}, "cost of a start at the window's edge");
+  fields("lost_stride", config.lost_stride, {1, 1000},
+         "a lost robot searches, further around, with every so many scans");
   fields("keep", config.keep, {1, 100}, "best starts that are followed up");
 }
 
