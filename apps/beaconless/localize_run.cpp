@@ -13,6 +13,16 @@
 namespace beaconless::cli {
 namespace {
 
+/// A file that holds no parameters at all is wrong data; a wrong parameter in it is a wrong word of the call.
+Result<Done> check_config_file(const std::string& path) {
+  if (path.empty()) return Done{};
+  const auto yaml = io::read_yaml(path);
+  if (!yaml) return yaml.error();
+  if (yaml->kind == io::YamlNode::Kind::map || yaml->kind == io::YamlNode::Kind::null) return Done{};
+  return Error{io::where_in(path, *yaml), "holds " + yaml->described(),
+               "a config is lines of `parameter: value`"};
+}
+
 /// The run's configuration: defaults, then the file, then the options, then each --set.
 Result<LocalizerConfig> config_of(const LocalizeWords& words) {
   LocalizerConfig config;
@@ -74,8 +84,8 @@ Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& record
 
 int localize_run(const Console& console, const LocalizeWords& words) {
   // 1. What was asked for.
-  if (!words.config.empty())
-    if (auto readable = io::read_yaml(words.config); !readable) return console.fail(readable.error());
+  if (auto config_file = check_config_file(words.config); !config_file)
+    return console.fail(config_file.error());
   const auto config = config_of(words);
   if (!config) return console.fail(config.error(), exit_usage);
   const auto scans = words.scan.selection();

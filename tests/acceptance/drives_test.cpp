@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// What beaconless is measured by: real drives and independent simulations, through the program, with the
+// bounds that its README speaks of. Skipped where the recordings are not.
+#include <gmock/gmock.h>
+
+#include "beaconless/eval/evaluate.hpp"
+#include "beaconless/io/tum.hpp"
+
+#include "tests/apps/program.hpp"
+
+namespace beaconless {
+namespace {
+
+/// Runs the program on recordings below BEACONLESS_DATA.
+class Drives : public Program {
+ protected:
+  /// `localize` with the words given; checks that the robot is not lost at the end.
+  nlohmann::json localize(const Words& words) const {
+    const Ran ran = run(Words{"localize"} + words + Words{"--out", folder.path("run"), "--json"});
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return ran.json().is_object() ? ran.json() : nlohmann::json{{"status_counts", nlohmann::json::object()}};
+  }
+
+  std::string build_map(const Words& words) const {
+    const Ran ran = run(Words{"map", "build"} + words + Words{"--out", folder.path("grid.yaml")});
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return folder.path("grid.yaml");
+  }
+};
+
+#define SKIP_WITHOUT(name) \
+  if (recorded(name).empty()) GTEST_SKIP() << (name) << " is not here; BEACONLESS_DATA names its folder"
+
+/// A room simulated by an independent program.
+struct Room {
+  const char* drive;
+  const char* room;
+  std::size_t scans;
+  double rmse_m;  ///< allowed on the plan
+};
+
+void PrintTo(const Room& room, std::ostream* out) { *out << room.drive; }
+
+class SimulatedRoom : public Drives, public testing::WithParamInterface<Room> {
+ protected:
+  Words words_on(const std::string& map) const {
+    const std::string drive = std::string("sim_rooms/") + GetParam().drive;
+    return {recorded(drive + ".carmen.log.gz"),
+            "--map",
+            recorded("sim_rooms/" + (GetParam().room + map)),
+            "--start-from",
+            recorded(drive + ".truth.tum"),
+            "--reference",
+            recorded(drive + ".truth.tum")};
+  }
+};
+
+TEST_P(SimulatedRoom, EveryScanIsOkOnItsPlan) {
+  SKIP_WITHOUT("sim_rooms");
+  const auto told = localize(words_on(".plan.yaml"));
+  EXPECT_EQ(told["scans"], GetParam().scans);
+  EXPECT_EQ(told["status_counts"], (nlohmann::json{{"ok", GetParam().scans}}));
+  EXPECT_EQ(told["error"]["pairs"], GetParam().scans);
+  EXPECT_LE(told["error"]["position_m"]["rmse"].get<double>(), GetParam().rmse_m);
+  // No single scan beats the bound; the RMSE of 400 errors scatters by 1 / sqrt(800), 3.5 %.
+  // error.
+  EXPECT_GT(told["error"]["crb_ratio"]["position"].get<double>(), 0.9);
+}
+
+TEST_P(SimulatedRoom, NoScanIsLostOnItsGrid) {
+  SKIP_WITHOUT("sim_rooms");
+  const auto told = localize(words_on("_r025.yaml"));
+  EXPECT_EQ(told["scans"], GetParam().scans);
+  EXPECT_FALSE(told["status_counts"].contains("lost")) << told["status_counts"];
+}
+
+// The bound for a1 is 0.63 mm.
+INSTANTIATE_TEST_SUITE_P(Rooms, SimulatedRoom,
+                         testing::Values(Room{"a1_static", "a_room4x3", 400, 0.0010},
+                                         Room{"b1_ellipse", "b_room12x8", 2000, 0.0015}),
+                         [](const auto& room) { return std::string(room.param.drive); });
+
+/// A tricycle AGV in a hall; a bag, so only where bags can be read.
+class Hall : public Drives {
+ protected:
+  void SetUp() override {
+#ifndef BEACONLESS_HAS_ROSBAG1
+    GTEST_SKIP() << "this build reads no ROS 1 bags";
+#endif
+    SKIP_WITHOUT("jarvis/jarvis_circular_path_fast.bag");
+  }
+  std::string bag() const { return recorded("jarvis/jarvis_circular_path_fast.bag"); }
+  std::string reflectors() const { return recorded("jarvis/jarvis_circular_gt_plan_frame.tum"); }
+
+  void expect_localized(const nlohmann::json& told, std::size_t scans) const {
+    EXPECT_EQ(told["scans"], scans);
+    EXPECT_FALSE(told["status_counts"].contains("lost")) << told["status_counts"];
+    EXPECT_GE(told["error"]["pairs"].get<double>(), 0.95 * static_cast<double>(scans));
+    EXPECT_LE(told["error"]["aligned"]["position_m"]["mean"].get<double>(), 0.04);
+  }
+};
+
+TEST_F(Hall, HighScannerOnAPlanDrawnByHand) {
+  const auto told = localize({bag(), "--topic", "/driver_laser_navigation/laser_scan", "--map",
+                              recorded("jarvis/maps/i-108_10mm.yaml"), "--base-from-laser", "0.194,0,0",
+                              "--start-from", reflectors(), "--reference", reflectors()});
+  expect_localized(told, 204);
+}
+
+TEST_F(Hall, LowScannerOnAGridOfItsOwnEvenScans) {
+  const Words scanner{bag(), "--topic", "/driver_laser_security/laser_scan", "--base-from-laser",
+                      "0.895,0,0"};
+  const std::string grid = build_map(scanner + Words{"--poses", reflectors(), "--scans", "0::2"});
+  const auto told = localize(scanner + Words{"--map", grid, "--scans", "1::2", "--start-from", reflectors(),
+                                             "--reference", reflectors()});
+  expect_localized(told, 106);
+}
+
+TEST_F(Drives, ABuildingByEverySecondScanOnAGridOfTheOthers) {
+  const char* name = "fr079/freiburg-079-corrected.log.gz";
+  SKIP_WITHOUT(name);
+  const std::string log = recorded(name);
+  const std::string grid = build_map({log, "--poses", "recorded", "--scans", "0::2"});
+  ASSERT_EQ(run({"poses", log, "--out", folder.path("poses.tum")}).exit_code, 0);
+  const auto told = localize({log, "--map", grid, "--scans", "1::2", "--start-from", "recorded"});
+  const double scans = told["scans"].get<double>();
+  EXPECT_EQ(scans, 2395.0);
+
+  const auto evaluation = eval::evaluate(io::read_tum(folder.path("run/trajectory.tum")).value(),
+                                         io::read_tum(folder.path("poses.tum")).value());
+  double near = 0.0;
+  for (const eval::PoseError& error : evaluation.errors)
+    if (error.position_m() <= 0.25 && std::abs(degrees(error.heading_rad)) <= 4.0) ++near;
+  EXPECT_GE(near, 0.95 * scans);
+}
+
+}  // namespace
+}  // namespace beaconless

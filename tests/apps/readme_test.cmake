@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+# The README's first block of C++ is the marked part of the example that the tests build and run, byte for byte.
+# usage: cmake -DSOURCE=… -P readme_test.cmake
+function(piece_between out path begin end)
+  file(READ "${path}" text)
+  string(FIND "${text}" "${begin}" from)
+  if(from EQUAL -1)
+    message(FATAL_ERROR "${path}: there is no \"${begin}\"")
+  endif()
+  string(LENGTH "${begin}" length)
+  math(EXPR from "${from} + ${length}")
+  string(SUBSTRING "${text}" ${from} -1 text)
+  string(FIND "${text}" "${end}" to)
+  if(to EQUAL -1)
+    message(FATAL_ERROR "${path}: there is no \"${end}\" behind \"${begin}\"")
+  endif()
+  string(SUBSTRING "${text}" 0 ${to} text)
+  set(${out} "${text}" PARENT_SCOPE)
+endfunction()
+
+piece_between(shown "${SOURCE}/README.md" "```cpp\n" "```")
+piece_between(built "${SOURCE}/examples/01_localize_a_recording.cpp" "// README begin\n" "// README end")
+if(NOT shown STREQUAL built)
+  message(FATAL_ERROR "README.md shows\n${shown}\nbut examples/01_localize_a_recording.cpp has\n${built}")
+endif()
+if(built STREQUAL "")
+  message(FATAL_ERROR "the example shows nothing")
+endif()
