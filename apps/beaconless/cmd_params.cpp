@@ -10,6 +10,12 @@
 namespace beaconless::cli {
 namespace {
 
+/// In a Markdown table a bar ends the cell.
+std::string in_table(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+  return text;
+}
+
 int params(const Console& console, bool markdown) {
   LocalizerConfig config;
   nlohmann::json list = nlohmann::json::array();
@@ -20,8 +26,8 @@ int params(const Console& console, bool markdown) {
                     {"allowed", field.allowed()},
                     {"sentence", field.sentence}});
     if (markdown)
-      console.say(
-          fmt::format("| `{}` | {} | {} | {} |", field.name, field.text(), field.allowed(), field.sentence));
+      console.say(fmt::format("| `{}` | {} | {} | {} |", field.name, field.text(), in_table(field.allowed()),
+                              field.sentence));
     else
       console.say(
           fmt::format("{:<32} {:<10} {}  [{}]", field.name, field.text(), field.sentence, field.allowed()));

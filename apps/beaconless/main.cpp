@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string_view>
 
 #include "beaconless/core/suggest.hpp"
@@ -74,9 +76,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return refuse(console, app, error);
+  } catch (const std::bad_alloc&) {
+    return console.fail(
+        {"beaconless", "there is not enough memory for this", "use a smaller map or recording"});
   } catch (const std::exception& error) {
     return console.fail(
         {"beaconless", error.what(), "this should not happen: please report it with the command"});
   }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return console.fail({"standard output", "cannot be written", "is there space?"});
   return exit_code;
 }

@@ -97,8 +97,9 @@ Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& 
   std::vector<std::string> paths;
   const auto path_of = [&](const char* name) { return paths.emplace_back((folder / name).string()); };
 
-  if (auto written = io::write_tum(path_of("trajectory.tum"), trajectory_of(run)); !written)
-    return written.error();
+  io::TumWriter trajectory(path_of("trajectory.tum"));
+  for (const PoseEstimate& estimate : run.replay.estimates) trajectory.write(estimate);
+  if (auto written = trajectory.finish(); !written) return written.error();
   io::EstimatesCsvWriter csv(path_of("estimates.csv"));
   for (const PoseEstimate& estimate : run.replay.estimates) csv.write(estimate);
   if (auto written = csv.finish(); !written) return written.error();
@@ -159,8 +160,14 @@ int finish_run(const Console& console, const LocalizeWords& words, const Run& ru
     for (const std::string& path : *paths) console.say("  " + path);
   }
   console.result(summary);
-  if (run.replay.estimates.back().status != Status::lost) return exit_good;
-  console.warn("the robot is lost at the end of the recording");
+  const auto& estimates = run.replay.estimates;
+  const bool ever_found =
+      std::any_of(estimates.begin(), estimates.end(), [](const auto& e) { return e.ok(); });
+  if (ever_found && estimates.back().status != Status::lost) return exit_good;
+  console.warn(
+      ever_found
+          ? "the robot is lost at the end of the recording"
+          : "the robot is lost, it was never found: check the start pose, the map and --base-from-laser");
   return exit_lost;
 }
 

@@ -8,6 +8,11 @@
 #include "beaconless/core/parse.hpp"
 
 namespace beaconless::cli {
+namespace {
+
+constexpr double kFarthest = 1e7;  // metres or degrees; nobody means more
+
+}  // namespace
 
 Result<Pose2> pose_from_words(std::string_view option, std::string_view text) {
   const auto words = split_words(text, ", ");
@@ -17,7 +22,7 @@ Result<Pose2> pose_from_words(std::string_view option, std::string_view text) {
   double numbers[3] = {};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto number = parse_double(words[i]);
-    if (!number || !std::isfinite(*number)) return error;
+    if (!number || !(std::abs(*number) < kFarthest)) return error;
     numbers[i] = *number;
   }
   return Pose2{numbers[0], numbers[1], wrap_angle(radians(numbers[2]))};

@@ -20,7 +20,7 @@ struct GrayImage {
 };
 
 /// The largest picture, and so the largest grid, that is read.
-inline constexpr std::int64_t kMaxPixels = 400'000'000;
+inline constexpr std::int64_t kMaxPixels = 100'000'000;
 
 /// Reads a PGM (P2, P5) or PNG picture; the first bytes decide, not the name.
 ///

@@ -16,6 +16,8 @@ void describe(Fields& fields, HealthConfig& config) {
   fields("lost_ratio", config.lost_ratio, {0.0, 1.0},
          "a fit that explains less of the scan than this is no fit");
   fields("lost_after_scans", config.lost_after_scans, {1, 100000}, "so many weak fits in a row mean lost");
+  fields("found_after_scans", config.found_after_scans, {1, 100000},
+         "a lost robot is found when so many fits in a row agree");
   fields("forget", config.forget, {0.0, 1.0}, "how fast what is usual follows the scans");
 }
 
@@ -26,12 +28,15 @@ bool Health::is_weak(double on_map_ratio) const {
 
 Status Health::judge(double on_map_ratio) {
   if (is_weak(on_map_ratio)) {
-    ++weak_in_a_row_;
+    good_in_a_row_ = 0;
+    lost_ = lost_ || ++weak_in_a_row_ >= config_.lost_after_scans;
     // What was usual elsewhere must not keep a robot from being well here.
     if (usual_ratio_ > 0.0 && on_map_ratio >= config_.weak_ratio)
       usual_ratio_ += config_.forget * (on_map_ratio - usual_ratio_);
-    return lost() || on_map_ratio < config_.lost_ratio ? Status::lost : Status::degraded;
+    return lost_ || on_map_ratio < config_.lost_ratio ? Status::lost : Status::degraded;
   }
+  if (lost_ && ++good_in_a_row_ < config_.found_after_scans) return Status::degraded;
+  lost_ = false;
   weak_in_a_row_ = 0;
   const double follow = usual_ratio_ > 0.0 ? config_.forget : 1.0;
   usual_ratio_ += follow * (on_map_ratio - usual_ratio_);

@@ -10,12 +10,13 @@ namespace beaconless {
 struct HealthConfig {
   double doubt_share =
       0.9;  ///< a fit that explains less than this share of what is usual here is tried elsewhere too
-  double weak_share = 0.75;  ///< … and less than this is weak
-  double weak_ratio = 0.35;  ///< a fit that explains less of the scan than this is weak in any case
-  double found_ratio = 0.5;  ///< a robot is found, at the start or again, by a fit that explains this much
-  double lost_ratio = 0.25;  ///< a fit that explains less than this is no fit
-  int lost_after_scans = 8;  ///< so many weak fits in a row, and the robot is lost
-  double forget = 0.05;      ///< how fast "usual" follows the scans
+  double weak_share = 0.75;   ///< … and less than this is weak
+  double weak_ratio = 0.35;   ///< a fit that explains less of the scan than this is weak in any case
+  double found_ratio = 0.5;   ///< a robot is found, at the start or again, by a fit that explains this much
+  double lost_ratio = 0.25;   ///< a fit that explains less than this is no fit
+  int lost_after_scans = 8;   ///< so many weak fits in a row, and the robot is lost
+  int found_after_scans = 5;  ///< a lost robot is found when so many fits in a row agree
+  double forget = 0.05;       ///< how fast "usual" follows the scans
 };
 
 void describe(Fields& fields, HealthConfig& config);
@@ -43,12 +44,17 @@ class Health {
   /// True after a good fit, until lost: then a fit need not convince by itself.
   bool at_home() const { return usual_ratio_ > 0.0 && !lost(); }
 
-  bool lost() const { return weak_in_a_row_ >= config_.lost_after_scans; }
+  bool lost() const { return lost_; }
+
+  /// A place that fitted turned out not to be the robot's: counting starts again.
+  void forget_found() { good_in_a_row_ = 0; }
 
  private:
   HealthConfig config_;
   double usual_ratio_ = 0.0;
   int weak_in_a_row_ = 0;
+  int good_in_a_row_ = 0;
+  bool lost_ = false;
 };
 
 }  // namespace beaconless

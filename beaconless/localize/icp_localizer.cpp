@@ -15,7 +15,9 @@ constexpr double kJumpSigma =
     3.0;  // of the prediction; a larger correction is a jump, if also larger than the next two
 constexpr double kJump_m = 0.25;
 constexpr double kJump_rad = radians(8.0);
-constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
+constexpr double kCovered_m = 0.5;      // where fewer beams than the next share reach further than this …
+constexpr double kCoveredShare = 0.05;  // … anything fits anywhere
+constexpr double kLostWindow = 2.5;     // how much wider a lost robot searches
 
 /// Two independent opinions on the same pose, each with its covariance.
 Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -30,6 +32,17 @@ Eigen::Matrix3d sweep_covariance(const Pose2& map_from_base, const Twist2& twist
   const Eigen::Vector2d moved = map_from_base.rotation() * Eigen::Vector2d(half.x_m, half.y_m);
   const Eigen::Vector3d error(moved.x(), moved.y(), half.theta_rad);
   return error * error.transpose();
+}
+
+/// What a fit that is not to be trusted may be off by: a cell or two, or the whole window that is searched.
+const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
+const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
+
+std::string_view reason_of(Status status, bool was_lost) {
+  if (status == Status::ok) return "";
+  if (status == Status::lost) return "the scan does not fit the map here";
+  return was_lost ? "a place that fits was found; more scans must agree"
+                  : "less of the scan lies on the map than is usual";
 }
 
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
@@ -82,7 +95,8 @@ PoseEstimate IcpLocalizer<Index>::update(const Event& event) {
 
 template <SurfaceIndex Index>
 bool IcpLocalizer<Index>::is_worth_searching(const MatchResult& match, const Prediction& prediction) {
-  if (health_.lost()) return lost_scans_++ % config_.search.lost_stride == 0;
+  if (health_.lost() && health_.is_weak(match.on_map_ratio))
+    return lost_scans_++ % config_.search.lost_stride == 0;
   lost_scans_ = 0;
   return first_scan_ || !match.usable() || health_.is_doubtful(match.on_map_ratio) ||
          is_jump(match, prediction);
@@ -91,6 +105,8 @@ bool IcpLocalizer<Index>::is_worth_searching(const MatchResult& match, const Pre
 template <SurfaceIndex Index>
 std::string_view IcpLocalizer<Index>::reason_to_coast(const MatchResult& match,
                                                       const Prediction& prediction) const {
+  if (is_covered_)
+    return "the scanner seems to be covered: hardly a beam comes from further than half a metre";
   if (!match.usable()) return "too few beams end near a wall of the map";
   if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
     return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
@@ -103,8 +119,13 @@ std::string_view IcpLocalizer<Index>::reason_to_coast(const MatchResult& match,
 template <SurfaceIndex Index>
 void IcpLocalizer<Index>::load(const Scan& scan) {
   points_.clear();
-  for (std::size_t beam = 0; beam < scan.size(); ++beam)
-    if (scan.is_hit(beam)) points_.push_back(scan.point(beam));
+  std::size_t far = 0;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (!scan.is_hit(beam)) continue;
+    points_.push_back(scan.point(beam));
+    far += static_cast<double>(scan.ranges_m()[beam]) > kCovered_m ? 1 : 0;
+  }
+  is_covered_ = static_cast<double>(far) < kCoveredShare * static_cast<double>(scan.size());
 }
 
 template <SurfaceIndex Index>
@@ -124,6 +145,11 @@ MatchResult IcpLocalizer<Index>::try_other_starts(const MatchResult& first, cons
     window.step_m *= 1.5;
     window.window_deg = 180.0;
     window.step_deg *= 2.0;
+  } else {
+    const double slack_m = 2.0 * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+    const double wider = std::clamp(slack_m / std::max(window.window_m, 1e-3), 1.0, kLostWindow);
+    window.window_m *= wider;
+    window.step_m *= std::sqrt(wider);
   }
   // While the robot is not lost, a place that it cannot have reached since the last scan is no answer,
   // however well the scan fits there.
@@ -150,10 +176,12 @@ PoseEstimate IcpLocalizer<Index>::accept(const MatchResult& match, const Predict
   estimate.map_from_base = match.map_from_laser * laser_from_base_;
   estimate.covariance = moved_covariance(match.covariance, match.map_from_laser, laser_from_base_);
   estimate.quality = match.on_map_ratio;
+  const bool was_lost = health_.lost();
+  // Found again means that the place holds from scan to scan.
+  if (was_lost && is_jump(match, prediction)) health_.forget_found();
   estimate.status = health_.judge(match.on_map_ratio);
-  estimate.reason = estimate.status == Status::ok         ? ""
-                    : estimate.status == Status::degraded ? "less of the scan lies on the map than is usual"
-                                                          : "the scan does not fit the map here";
+  estimate.reason = reason_of(estimate.status, was_lost);
+  if (estimate.status != Status::ok) estimate.covariance += was_lost ? kLostCovariance : kWeakCovariance;
   if (match.rank < 3) {
     estimate.covariance = fused(estimate.covariance, prediction.covariance);
     if (estimate.status == Status::ok) {
@@ -175,7 +203,9 @@ PoseEstimate IcpLocalizer<Index>::coast(const Prediction& prediction, Stamp stam
   PoseEstimate estimate;
   estimate.stamp = stamp;
   estimate.map_from_base = prediction.map_from_base;
-  estimate.covariance = symmetric(prediction.covariance);
+  estimate.covariance = prediction.covariance;
+  if (health_.lost()) estimate.covariance += kLostCovariance;
+  estimate.covariance = symmetric(estimate.covariance);
   estimate.status = health_.judge(0.0) == Status::lost && health_.lost() ? Status::lost : Status::degraded;
   estimate.reason = reason;
   return estimate;

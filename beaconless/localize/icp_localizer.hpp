@@ -43,6 +43,7 @@ class IcpLocalizer final : public Localizer {
   PoseEstimate last_;
   bool started_ = false;
   bool first_scan_ = true;
+  bool is_covered_ = false;
   int lost_scans_ = 0;
 };
 

@@ -35,7 +35,8 @@ Result<std::unique_ptr<Localizer>> make_icp_full(const LocalizerConfig& config, 
 Result<std::unique_ptr<Localizer>> make_icp_full(LocalizerConfig config, const OccupancyGrid& grid) {
   // A wall drawn into cells is off by up to half a cell.
   if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid.resolution_m / std::sqrt(12.0);
-  config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid.resolution_m);
+  const bool chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
+  if (!chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid.resolution_m);
   CellIndex cells(grid, config.icp.max_pair_distance_m);
   if (cells.surface_count() == 0)
     return Error{"map", "the grid has no occupied cell",

@@ -63,26 +63,29 @@ LocalLine line_around(const std::vector<bool>& marked, int width, int height, Ce
 CellIndex::CellIndex(const OccupancyGrid& grid, double reach_m)
     : reach_m_(reach_m),
       resolution_m_(grid.resolution_m),
-      width_(grid.width_cells),
-      height_(grid.height_cells),
+      margin_(static_cast<int>(std::ceil(reach_m / grid.resolution_m))),
+      width_(grid.width_cells + 2 * margin_),
+      height_(grid.height_cells + 2 * margin_),
       map_from_grid_(grid.map_from_grid),
       grid_rotation_(grid.map_from_grid.rotation()) {
   std::vector<bool> surface(grid.occupancy_percent.size(), false);
   std::vector<bool> occupied(grid.occupancy_percent.size(), false);
+  std::vector<Cell> cells;
   std::vector<std::int32_t> seeds;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
+  for (int y = 0; y < grid.height_cells; ++y) {
+    for (int x = 0; x < grid.width_cells; ++x) {
       occupied[grid.index({x, y})] = grid.is_occupied({x, y});
       if (!is_surface(grid, {x, y})) continue;
       surface[grid.index({x, y})] = true;
-      seeds.push_back(static_cast<std::int32_t>(grid.index({x, y})));
+      cells.push_back({x, y});
+      seeds.push_back((y + margin_) * width_ + x + margin_);
     }
   }
-  surfaces_.reserve(seeds.size());
-  for (const std::int32_t seed : seeds) {
-    const Cell cell{seed % width_, seed / width_};
-    LocalLine line = line_around(surface, width_, height_, cell, kThinWall);
-    if (line.along.isZero()) line = line_around(occupied, width_, height_, cell, kThickWall);
+  surfaces_.reserve(cells.size());
+  for (const Cell& cell : cells) {
+    LocalLine line = line_around(surface, grid.width_cells, grid.height_cells, cell, kThinWall);
+    if (line.along.isZero())
+      line = line_around(occupied, grid.width_cells, grid.height_cells, cell, kThickWall);
     surfaces_.push_back({(resolution_m_ * line.middle).cast<float>(), line.along.cast<float>()});
   }
   nearest_ = nearest_seeds(width_, height_, seeds, reach_m_ / resolution_m_);
@@ -90,8 +93,8 @@ CellIndex::CellIndex(const OccupancyGrid& grid, double reach_m)
 
 std::optional<SurfacePoint> CellIndex::nearest(const Eigen::Vector2d& point_map) const {
   const Eigen::Vector2d point = grid_rotation_.transpose() * (point_map - map_from_grid_.translation());
-  const double x = point.x() / resolution_m_;
-  const double y = point.y() / resolution_m_;
+  const double x = point.x() / resolution_m_ + margin_;
+  const double y = point.y() / resolution_m_ + margin_;
   if (!(x >= 0.0 && y >= 0.0 && x < width_ && y < height_)) return std::nullopt;
   const std::int32_t found =
       nearest_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];

@@ -35,7 +35,8 @@ class CellIndex {
 
   double reach_m_ = 0.0;
   double resolution_m_ = 0.0;
-  int width_ = 0;
+  int margin_ = 0;  // cells around the grid's own, so that surfaces at its edge are found from outside too
+  int width_ = 0;   // with the margin
   int height_ = 0;
   Pose2 map_from_grid_;
   Eigen::Matrix2d grid_rotation_ = Eigen::Matrix2d::Identity();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace beaconless {
 namespace {
@@ -41,11 +42,33 @@ void for_cells_near(const Segment2& wall, double reach_m, const Eigen::Vector2d&
   }
 }
 
+constexpr double kMaxVisits = 5e7;  // of cells by walls, so that no plan takes for ever
+
+double area_of_reach(const std::vector<Segment2>& walls, double reach_m) {
+  double area_m2 = 0.0;
+  for (const Segment2& wall : walls) area_m2 += (wall.length_m() + 2.0 * reach_m) * 2.0 * reach_m;
+  return area_m2;
+}
+
+/// The walls without those that are there twice, whichever way round.
+std::vector<Segment2> distinct(std::vector<Segment2> walls) {
+  const auto before = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
+  };
+  for (Segment2& wall : walls)
+    if (before(wall.b, wall.a)) std::swap(wall.a, wall.b);
+  std::sort(walls.begin(), walls.end(), [&](const Segment2& p, const Segment2& q) {
+    return before(p.a, q.a) || (p.a == q.a && before(p.b, q.b));
+  });
+  walls.erase(std::unique(walls.begin(), walls.end()), walls.end());
+  return walls;
+}
+
 }  // namespace
 
 WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
     : reach_m_(reach_m), cell_m_(cell_m) {
-  const std::vector<Segment2> segments = plan.segments();
+  const std::vector<Segment2> segments = distinct(plan.segments());
   for (const Segment2& segment : segments)
     walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m()});
   if (walls_.empty()) return;
@@ -53,7 +76,8 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   const FloorPlan::Bounds bounds = plan.bounds();
   low_ = bounds.low.array() - reach_m_;
   const Eigen::Vector2d extent = bounds.high.array() + reach_m_ - low_.array();
-  cell_m_ = std::max(cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells));
+  cell_m_ = std::max({cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells),
+                      std::sqrt(area_of_reach(segments, reach_m_) / kMaxVisits)});
   columns_ = static_cast<int>(std::ceil(extent.x() / cell_m_));
   rows_ = static_cast<int>(std::ceil(extent.y() / cell_m_));
   const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);

@@ -33,7 +33,7 @@ constexpr std::string_view to_string(MatchStatus status) {
 
 /// A pose found from a scan and a map, with what it is worth. Begins pessimistic.
 ///
-/// `information` and `covariance` are of (x, y, theta) of the laser, x and y along the map axes. A direction
+/// `covariance` is of (x, y, theta) of the laser, x and y along the map axes. A direction
 /// that the scan does not determine (along a corridor, heading in a round room) is left at the guess and not
 /// counted in `rank`; the covariance there is kUnknownSigma².
 struct MatchResult {

@@ -20,6 +20,8 @@ void describe(Fields& fields, MotionConfig& config) {
          "how much the speed may change in a second");
   fields("turn_acceleration_radps2", config.turn_acceleration_radps2, {0.0, 1000.0},
          "how much the rate of turn may change in a second");
+  fields("start_sigma_m", config.start_sigma_m, {0.0, 1e3}, "how well a start pose is known, to each side");
+  fields("start_sigma_deg", config.start_sigma_deg, {0.0, 180.0}, "and its heading");
   fields("max_gap_s", config.max_gap_s, {0.0, 1e6},
          "after a longer silence the robot is taken to stand where it was");
 }
@@ -27,6 +29,10 @@ void describe(Fields& fields, MotionConfig& config) {
 void MotionFilter::start_at(const Pose2& map_from_base) {
   *this = MotionFilter(config_);
   last_ = map_from_base;
+  const double turn_rad = radians(config_.start_sigma_deg);
+  covariance_ =
+      Eigen::Vector3d(square(config_.start_sigma_m), square(config_.start_sigma_m), square(turn_rad))
+          .asDiagonal();
 }
 
 double MotionFilter::elapsed_s(Stamp stamp) const {

@@ -13,6 +13,8 @@ namespace beaconless {
 struct MotionConfig {
   double acceleration_mps2 = 1.0;         ///< standard deviation of what the speed may change in a second
   double turn_acceleration_radps2 = 1.5;  ///< … and the rate of turn
+  double start_sigma_m = 0.25;            ///< how well a start pose is known, to each side
+  double start_sigma_deg = 15.0;          ///< … and its heading
   double max_gap_s = 1.0;                 ///< after a longer silence the robot is taken to stand where it was
 };
 

@@ -39,10 +39,7 @@ TEST_P(EachRoom, EveryScanIsOkAndItsCovarianceHonest) {
     ASSERT_EQ(estimate.reason, "");
   }
   const eval::Consistency consistency = eval::consistency_of(estimates, drive.truth);
-  // Independent scans of an exact map: the 95 % band, and 15 % for beams whose nearest wall is not the one
-  // they hit.
-  EXPECT_GT(consistency.mean_nees, consistency.low - 0.45);
-  EXPECT_LT(consistency.mean_nees, consistency.high + 0.45);
+  EXPECT_EQ(consistency.verdict(), "consistent") << consistency.mean_nees;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, EachRoom,
@@ -121,7 +118,7 @@ TEST(IcpLocalizer, SaysThatItIsLostAndComesBackWhenTheRoomDoes) {
   }
   EXPECT_EQ(last, Status::lost);
   PoseEstimate estimate;
-  for (int i = 0; i < 5; ++i) estimate = see(home_walls);
+  for (int i = 0; i < 20; ++i) estimate = see(home_walls);
   EXPECT_EQ(estimate.status, Status::ok) << estimate.reason;
   EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.005);
 }
@@ -140,7 +137,48 @@ TEST(IcpLocalizer, InACorridorIsDegradedAndLessSureWithEveryScan) {
     ASSERT_GE(estimate.covariance(0, 0), before);
     before = estimate.covariance(0, 0);
   }
-  EXPECT_GT(before, 0.0);
+  EXPECT_GT(before, 0.2 * 0.2) << "a start pose is known to a quarter of a metre, and nothing has told more";
+}
+
+TEST(IcpLocalizer, ACoveredScannerIsNeverOk) {
+  Rng rng(12);
+  const FloorPlan plan = test::niche_room();
+  const RayCaster walls(plan.segments());
+  const auto localizer = make_localizer({}, plan).value();
+  const Pose2 truth{3, 2, 0.3};
+  localizer->start_at(truth);
+  std::int64_t tick = 0;
+  const auto see = [&](bool covered) {
+    RawScan raw = test::sweep(walls, truth, 0.01, rng, {25'000'000 * tick++});
+    if (covered) std::fill(raw.ranges_m.begin(), raw.ranges_m.end(), 0.3F);
+    return localizer->update(Scan::make(raw).value());
+  };
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(see(false).ok());
+  double before = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const PoseEstimate estimate = see(true);
+    ASSERT_FALSE(estimate.ok()) << i;
+    ASSERT_GE(estimate.covariance(0, 0), before);
+    before = estimate.covariance(0, 0);
+  }
+  PoseEstimate estimate;
+  for (int i = 0; i < 30; ++i) estimate = see(false);
+  EXPECT_TRUE(estimate.ok()) << estimate.reason;
+  EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.005);
+}
+
+TEST(IcpLocalizer, AStartInTheWrongPlaceIsNotBelieved) {
+  Rng rng(13);
+  const FloorPlan plan = test::niche_room();
+  const RayCaster walls(plan.segments());
+  const auto localizer = make_localizer({}, plan).value();
+  localizer->start_at({100, 100, 0});
+  for (int i = 0; i < 12; ++i) {
+    const PoseEstimate estimate =
+        localizer->update(Scan::make(test::sweep(walls, {3, 2, 0.3}, 0.01, rng, {25'000'000 * i})).value());
+    ASSERT_FALSE(estimate.ok());
+    ASSERT_GT(estimate.covariance(0, 0), 0.2 * 0.2);
+  }
 }
 
 TEST(MakeLocalizer, RefusesWhatCannotWork) {

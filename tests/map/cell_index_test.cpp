@@ -71,6 +71,15 @@ TEST(CellIndex, OfAFilledBlockOnlyTheFaceCounts) {
   EXPECT_NEAR(found->distance_m, 20.5 * 0.05 - 0.8, 1e-6);
 }
 
+TEST(CellIndex, AWallAtTheEdgeOfTheGridIsFoundFromOutside) {
+  OccupancyGrid grid = walled_grid(0.4);
+  std::fill(grid.occupancy_percent.begin(), grid.occupancy_percent.end(), OccupancyGrid::kFree);
+  for (int x = 0; x < 80; ++x) grid.occupancy_percent[grid.index({x, 39})] = OccupancyGrid::kOccupied;
+  const auto found = CellIndex(grid, 0.5).nearest(grid.map_from_grid * Eigen::Vector2d(2.0, 40 * 0.05 + 0.2));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->distance_m, 0.225, 1e-6);
+}
+
 TEST(CellIndex, AnswersNothingOutsideAndForNonsense) {
   const CellIndex index(walled_grid(0.0), 0.3);
   EXPECT_FALSE(index.nearest({-100.0, 0.0}));

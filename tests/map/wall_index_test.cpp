@@ -38,6 +38,14 @@ TEST(WallIndex, AgreesWithComparingEveryWall) {
   }
 }
 
+TEST(WallIndex, TheSameWallAThousandTimesIsOneWall) {
+  FloorPlan plan;
+  for (int i = 0; i < 1000; ++i) plan.walls.push_back({{0, 0}, {100, 50}, {0, 0}});
+  const WallIndex index(plan);
+  EXPECT_EQ(index.wall_count(), 1U);
+  EXPECT_TRUE(index.nearest({50.0, 25.2}));
+}
+
 TEST(WallIndex, AnswersNothingWithoutWallsAndForNonsense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(WallIndex(FloorPlan{}).nearest({0, 0}));
