@@ -22,8 +22,8 @@ void describe(Fields& fields, HealthConfig& config) {
 }
 
 bool Health::is_weak(double on_map_ratio) const {
-  const double least = at_home() ? config_.weak_ratio : config_.found_ratio;
-  return on_map_ratio < std::max(least, config_.weak_share * usual_ratio_);
+  if (at_home()) return on_map_ratio < std::max(config_.weak_ratio, config_.weak_share * usual_ratio_);
+  return on_map_ratio < std::max(config_.found_ratio, config_.doubt_share * usual_ratio_);
 }
 
 Status Health::judge(double on_map_ratio) {
