@@ -237,7 +237,8 @@ void describe(Fields& fields, IcpConfig& config) {
   fields("gate_sigma", config.gate_sigma, {2.0, 1000.0},
          "once near, pairs this many robust sigmas apart are dropped");
   fields("on_map_m", config.on_map_m, {0.001, 1.0},
-         "a point this near to a wall counts as explained by the map; unless chosen, two cells of a coarse grid");
+         "a point this near to a wall counts as explained by the map; unless chosen, two cells of a coarse "
+         "grid");
   fields("max_iterations", config.max_iterations, {1, 1000}, "most iterations of one match");
   fields("converged_m", config.converged_m, {1e-9, 0.1},
          "a shorter step ends the match, if it also turns little");
