@@ -130,7 +130,7 @@ int localize_run(const Console& console, const LocalizeWords& words) {
     if (words.reference == words.start_from) pose_problems.forget();
     auto poses = poses_of(words.reference, *recording, words.pose_topic, pose_problems);
     if (!poses) return console.fail(poses.error());
-    reference = std::move(poses->trajectory);
+    reference = poses->trajectory;
   }
   pose_problems.report(console);
   // 3. Localize.
