@@ -39,11 +39,7 @@ int refuse(const Console& console, const CLI::App& app, const CLI::ParseError& e
                       exit_usage);
 }
 
-}  // namespace
-}  // namespace beaconless::cli
-
-int main(int argc, char** argv) {
-  using namespace beaconless::cli;
+int run(int argc, char** argv) {
   Console console;
   int exit_code = exit_good;
 
@@ -86,4 +82,16 @@ int main(int argc, char** argv) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     return console.fail({"standard output", "cannot be written", "is there space?"});
   return exit_code;
+}
+
+}  // namespace
+}  // namespace beaconless::cli
+
+int main(int argc, char** argv) {
+  try {
+    return beaconless::cli::run(argc, argv);
+  } catch (...) {  // not even the message could be made
+    std::fputs("error: beaconless: there is not enough memory\n", stderr);
+    return beaconless::cli::exit_data;
+  }
 }

@@ -17,7 +17,7 @@ struct SimulatedFiles {
 };
 
 /// Simulates a scenario (a shipped one by name, or a file) into a folder.
-Result<SimulatedFiles> simulate_run(const Console& console, const std::string& scenario,
-                                    std::optional<int> seed, const std::string& out);
+Result<SimulatedFiles> simulate_run(const Console& console, const std::string& name, std::optional<int> seed,
+                                    const std::string& out);
 
 }  // namespace beaconless::cli
