@@ -122,6 +122,11 @@ Result<Scan> Scan::make(RawScan raw, const ScanGate& gate) {
   return scan;
 }
 
+bool Scan::is_full_circle() const {
+  return std::abs(static_cast<double>(size()) * angle_increment_rad_ - 2.0 * kPi) <=
+         0.5 * angle_increment_rad_;
+}
+
 Eigen::Vector2d Scan::direction(std::size_t beam) const {
   const double angle = angle_rad(beam);
   return {std::cos(angle), std::sin(angle)};

@@ -60,6 +60,8 @@ class Scan {
   double angle_rad(std::size_t beam) const {
     return angle_min_rad_ + static_cast<double>(beam) * angle_increment_rad_;
   }
+  /// Whether the beam after the last one is the first one again, so that neighbourhoods run over the end.
+  bool is_full_circle() const;
   double range_min_m() const { return range_min_m_; }
   double range_max_m() const { return range_max_m_; }  ///< infinity when no limit is known
   double scan_time_s() const { return scan_time_s_; }

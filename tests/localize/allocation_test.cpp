@@ -1,26 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
 
 #include "beaconless/localize/make_localizer.hpp"
 
+#include "tests/support/allocations.hpp"
 #include "tests/support/rooms.hpp"
-
-namespace {
-thread_local std::size_t allocations = 0;
-}
-
-// NOLINTBEGIN(misc-new-delete-overloads): counts, and otherwise does what the default does
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-// NOLINTEND(misc-new-delete-overloads)
 
 namespace beaconless {
 namespace {
@@ -36,10 +20,10 @@ TEST(IcpLocalizer, AllocatesNothingPerScanWhileItTracks) {
     scans.emplace_back(
         Scan::make(test::sweep(walls, {3.0 + 0.01 * i, 2, 0}, 0.01, rng, {25'000'000 * i})).value());
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(localizer->update(scans[static_cast<std::size_t>(i)]).ok());
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   ASSERT_GT(before, 0U) << "the counter does not count";
   for (std::size_t i = 5; i < scans.size(); ++i) localizer->update(scans[i]);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
 }
 
 }  // namespace
