@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/features/flirt_peaks.hpp"
+
+#include <cmath>
+
+namespace beaconless {
+namespace {
+
+/// Whether `value`, made positive by `sign`, is above its three neighbours on another scale.
+bool above(float value, float sign, const std::vector<float>& other, std::size_t i) {
+  return value >= sign * other[i - 1] && value >= sign * other[i] && value >= sign * other[i + 1];
+}
+
+}  // namespace
+
+void second_derivative(std::span<const float> smooth, const ScaleKernel& kernel, std::span<float> response) {
+  const auto factor = static_cast<float>(kernel.variance);
+  if (smooth.empty()) return;
+  for (std::size_t i = 1; i + 1 < smooth.size(); ++i)
+    response[i] = factor * (smooth[i - 1] - 2.0F * smooth[i] + smooth[i + 1]);
+  response.front() = response.back() = 0.0F;
+}
+
+void first_derivative(std::span<const float> smooth, const ScaleKernel& kernel, std::span<float> response) {
+  const auto factor = static_cast<float>(0.5 * std::sqrt(kernel.variance));
+  if (smooth.empty()) return;
+  for (std::size_t i = 1; i + 1 < smooth.size(); ++i) response[i] = factor * (smooth[i - 1] - smooth[i + 1]);
+  response.front() = response.back() = 0.0F;
+}
+
+void find_peaks(std::span<const std::vector<float>> response, std::span<const ScaleKernel> kernels,
+                const FlirtStretch& stretch, std::uint32_t stretch_index, const FlirtPeakRule& rule,
+                std::vector<FlirtPeak>& peaks) {
+  for (std::size_t scale = 0; scale < kernels.size(); ++scale) {
+    const std::vector<float>& here = response[scale];
+    // 1. Which points: with both neighbours, and away from open ends.
+    const std::size_t margin =
+        stretch.closed ? 0 : static_cast<std::size_t>(std::ceil(kernels[scale].sigma)) + 1;
+    const std::size_t begin = stretch.core_begin + margin;
+    for (std::size_t i = begin; i + margin < stretch.core_end; ++i) {
+      // 2. Strong enough, of an allowed sign?
+      const float value = here[i];
+      if (!(std::abs(value) > rule.min_response)) continue;
+      const float sign = value > 0.0F ? 1.0F : -1.0F;
+      if (rule.falling_only && sign < 0.0F) continue;
+      const float strength = sign * value;
+      // 3. Above its neighbours along the scan …
+      if (!(strength - sign * here[i - 1] > rule.min_prominence)) continue;
+      if (!(strength - sign * here[i + 1] > rule.min_prominence)) continue;
+      // 4. … and on the scales next to its own?
+      if (rule.across_scales) {
+        if (scale > 0 && !above(strength, sign, response[scale - 1], i)) continue;
+        if (scale + 1 < kernels.size() && !above(strength, sign, response[scale + 1], i)) continue;
+      }
+      peaks.push_back(
+          {strength, static_cast<std::uint32_t>(scale), static_cast<std::uint32_t>(i), stretch_index});
+    }
+  }
+}
+
+}  // namespace beaconless
