@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "beaconless/features/ordered_points.hpp"
+#include "beaconless/geometry/line_fit.hpp"
+
+namespace beaconless {
+
+/// How much a beam counts in a line fit.
+enum class BeamWeight : int {
+  uniform,  ///< all the same: noise across the line is that of the ranges
+  radial,   ///< noise is along the beams, so that of a beam that grazes the wall is small across it
+};
+
+/// Prefix sums over a scan's points: the weighted line through any run of beams in O(1).
+///
+/// The noise of a beam across a wall is sigma |cos b|, and the cosine of the incidence b on a line at
+/// distance rho is rho/r: the weight is r²/rho², and rho is the same for the whole line. So r² is the right
+/// weight whatever the line, and the sums need no second pass once it is known. Source: weighted total least
+/// squares, w = 1/(sigma cos b)². Differs: elsewhere incidence is estimated and the fit repeated.
+class LineSums {
+ public:
+  void build(const OrderedPoints& points, double sigma_m, BeamWeight weight) {
+    sigma_m_ = sigma_m;
+    weight_ = weight;
+    sums_.resize(points.size() + 1);
+    PointMoments sum;
+    sums_[0] = sum;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double x = points.x_m[i];
+      const double y = points.y_m[i];
+      const double hit = points.ranges_m[i] > 0.0F ? 1.0 : 0.0;
+      const double w = weight == BeamWeight::radial ? x * x + y * y : hit;
+      sum.add(x, y, w);
+      sum.count -= 1.0 - hit;
+      sums_[i + 1] = sum;
+    }
+  }
+
+  /// Of the hits at the places `first` … `last`, both included.
+  PointMoments of(std::size_t first, std::size_t last) const { return sums_[last + 1] - sums_[first]; }
+
+  /// The noise (m) across the line of a beam whose weight is one.
+  double unit_sigma_m(const PrincipalLine& line, const PointMoments& sums) const {
+    if (weight_ == BeamWeight::uniform) return sigma_m_;
+    return sigma_m_ *
+           std::sqrt(line.rho_m * line.rho_m + kLeastCosine * kLeastCosine * sums.weight / sums.count);
+  }
+
+  /// Squared distances from the line in units of their variance: count - 2 on average.
+  double chi_square(const PrincipalLine& line, const PointMoments& sums) const {
+    const double unit = unit_sigma_m(line, sums);
+    return line.across_square / (unit * unit);
+  }
+
+  double sigma_m() const { return sigma_m_; }
+
+ private:
+  // Bearings jitter and spots are wide: no beam is as good across a wall that it grazes as the cosine says.
+  static constexpr double kLeastCosine = 0.1;
+
+  double sigma_m_ = 0.0;
+  BeamWeight weight_ = BeamWeight::radial;
+  std::vector<PointMoments> sums_;
+};
+
+}  // namespace beaconless
