@@ -34,23 +34,32 @@ enum class FlirtSuppression : int {
   box,   ///< |dx| and |dy| within suppress_m in sensor axes, as flirtlib does
 };
 
+/// Where a keypoint at a step between two surfaces stands. The nearer surface ends there for every viewer;
+/// the farther one is cut off elsewhere from elsewhere.
+enum class FlirtForeground : int {
+  support,    ///< at the near side of the greatest step within the support
+  next_beam,  ///< at the next beam, if that is nearer, as flirtlib does; coarse peaks stay behind the step
+};
+
 /// FLIRT: what it looks at and what it keeps. Defaults are those of the range detector; see flirt_defaults().
 struct FlirtConfig {
   FlirtKind kind = FlirtKind::range;
   FlirtKernel kernel = FlirtKernel::discrete_gaussian;
-  double sigma_beams = 1.6;       ///< finest scale of range, blob and edge
+  double sigma_beams = 1.0;       ///< finest scale of range, blob and edge
   double sigma_m = 0.2;           ///< finest scale of curvature, along the contour
   double scale_step_ratio = 1.4;  ///< from one scale to the next
   int scales_count = 5;
-  int window_beams = 3;             ///< points that a normal is fitted to; odd
-  double min_response = 0.3;        ///< m for range, rad for blob and edge, t exp(-t) <= 0.3679 for curvature
-  double min_prominence = 0.001;    ///< a peak exceeds both neighbours by more than this; same unit
-  bool falling_only = false;        ///< only one sign of the response, as flirtlib's edge detector does
-  bool peaks_across_scales = true;  ///< a peak also exceeds the neighbouring scales
+  int window_beams = 3;         ///< points that a normal is fitted to; odd
+  double min_response = 0.05;   ///< m for range, rad for blob and edge, t exp(-t) <= 0.3679 for curvature
+  double min_prominence = 0.0;  ///< a peak exceeds both neighbours by more than this; same unit
+  bool falling_only = false;    ///< only one sign of the response, as flirtlib's edge detector does
+  bool peaks_across_scales = false;  ///< a peak also exceeds the neighbouring scales
   FlirtOrder order = FlirtOrder::strongest;
   FlirtSuppression suppression = FlirtSuppression::disc;
   double suppress_m = 0.2;  ///< keypoints are further apart than this
-  double max_gap_m = 0.0;   ///< curvature: consecutive points further apart end a contour; 0: none does
+  FlirtForeground foreground = FlirtForeground::support;
+  double min_step_m = 0.15;  ///< ranges of neighbouring beams that differ by more belong to two surfaces
+  double max_gap_m = 0.0;    ///< curvature: consecutive points further apart end a contour; 0: none does
 
   friend bool operator==(const FlirtConfig&, const FlirtConfig&) = default;
 };

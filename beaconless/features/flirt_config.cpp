@@ -23,6 +23,10 @@ void describe(Fields& fields, FlirtConfig& config) {
   fields("suppression", config.suppression, {"disc", "box"},
          "how nearness is measured; box depends on the heading");
   fields("suppress_m", config.suppress_m, {0.0, 10.0}, "keypoints are further apart than this");
+  fields("foreground", config.foreground, {"support", "next-beam"},
+         "where a keypoint at a step stands: at its near side, or at the next beam if that is nearer");
+  fields("min_step_m", config.min_step_m, {0.0, 100.0},
+         "ranges of neighbouring beams that differ by more belong to two surfaces");
   fields("max_gap_m", config.max_gap_m, {0.0, 100.0},
          "curvature: points further apart end a contour; 0: none does");
 }
@@ -30,7 +34,24 @@ void describe(Fields& fields, FlirtConfig& config) {
 FlirtConfig flirt_defaults(FlirtKind kind) {
   FlirtConfig config;
   config.kind = kind;
-  if (kind == FlirtKind::curvature) config.min_response = 0.34;
+  switch (kind) {
+    case FlirtKind::range:
+      break;
+    case FlirtKind::normal_blob:
+      config.sigma_beams = 2.0;
+      config.window_beams = 11;
+      config.min_response = 0.18;
+      break;
+    case FlirtKind::normal_edge:
+      config.sigma_beams = 1.6;
+      config.scales_count = 4;
+      config.window_beams = 11;
+      config.min_response = 0.2;
+      break;
+    case FlirtKind::curvature:
+      config.min_response = 0.34;
+      break;
+  }
   return config;
 }
 
@@ -46,6 +67,7 @@ FlirtConfig flirtlib_tools(FlirtKind kind) {
   config.peaks_across_scales = false;
   config.order = FlirtOrder::finest;
   config.suppression = FlirtSuppression::box;
+  config.foreground = FlirtForeground::next_beam;
   return config;
 }
 

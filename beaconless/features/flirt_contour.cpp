@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/features/flirt_contour.hpp"
 
+#include <algorithm>
+#include <span>
+
 namespace beaconless {
 namespace {
 
@@ -10,11 +13,16 @@ bool joined(const Scan& scan, std::size_t beam, std::size_t next, double max_gap
   return !(max_gap_m > 0.0) || (scan.point(next) - scan.point(beam)).squaredNorm() <= max_gap_m * max_gap_m;
 }
 
-void add(const Scan& scan, std::size_t beam, FlirtContour& contour) {
-  contour.beam.push_back(static_cast<std::uint32_t>(beam));
-  contour.range_m.push_back(scan.ranges_m()[beam]);
-  contour.x_m.push_back(scan.x_m()[beam]);
-  contour.y_m.push_back(scan.y_m()[beam]);
+/// Adds beams [begin, end).
+void add(const Scan& scan, std::size_t begin, std::size_t end, FlirtContour& contour) {
+  const auto append = [&](std::span<const float> from, std::vector<float>& to) {
+    const auto beams = from.subspan(begin, end - begin);
+    to.insert(to.end(), beams.begin(), beams.end());
+  };
+  append(scan.ranges_m(), contour.range_m);
+  append(scan.x_m(), contour.x_m);
+  append(scan.y_m(), contour.y_m);
+  for (std::size_t beam = begin; beam < end; ++beam) contour.beam.push_back(static_cast<std::uint32_t>(beam));
 }
 
 void clear(FlirtContour& contour, std::size_t capacity) {
@@ -46,25 +54,40 @@ void gather_contour(const Scan& scan, double max_gap_m, std::size_t halo, FlirtC
 
   // 2. A circle without a gap: once around, with a halo on both sides.
   if (closed) {
-    const std::size_t before = size - halo % size;
-    for (std::size_t k = 0; k < size + 2 * halo; ++k) add(scan, (before + k) % size, contour);
+    std::size_t beam = size - halo % size;
+    for (std::size_t left = size + 2 * halo; left > 0;) {
+      beam %= size;
+      const std::size_t count = std::min(left, size - beam);
+      add(scan, beam, beam + count, contour);
+      beam += count;
+      left -= count;
+    }
     contour.stretches.push_back({0, size + 2 * halo, halo, halo + size, true});
     return;
   }
 
-  // 3. Otherwise stretch after stretch.
-  std::size_t begin = 0;
-  const auto finish = [&] {
-    const std::size_t end = contour.size();
-    if (end > begin) contour.stretches.push_back({begin, end, begin, end, false});
-    begin = end;
+  // 3. Otherwise stretch after stretch; one that runs over the end of the arrays comes in two parts.
+  std::size_t begin = 0;  // of the stretch in the contour
+  std::size_t from = 0;   // the beams [first + from, first + k) are hits that are still to be added
+  const auto add_until = [&](std::size_t k) {
+    const std::size_t a = first + from;
+    const std::size_t b = first + k;
+    if (a < size) add(scan, a, std::min(b, size), contour);
+    if (b > size) add(scan, std::max(a, size) - size, b - size, contour);
+    if (const std::size_t end = contour.size(); end > begin) {
+      contour.stretches.push_back({begin, end, begin, end, false});
+      begin = end;
+    }
   };
   for (std::size_t k = 0; k < size; ++k) {
-    const std::size_t beam = (first + k) % size;
-    if (k > 0 && !joined(scan, (beam + size - 1) % size, beam, max_gap_m)) finish();
-    if (scan.is_hit(beam)) add(scan, beam, contour);
+    const std::size_t beam = first + k < size ? first + k : first + k - size;
+    if (k > from && !joined(scan, beam == 0 ? size - 1 : beam - 1, beam, max_gap_m)) {
+      add_until(k);
+      from = k;
+    }
+    if (!scan.is_hit(beam)) from = k + 1;
   }
-  finish();
+  if (size > from) add_until(size);
 }
 
 }  // namespace beaconless

@@ -2,8 +2,9 @@
 #include "beaconless/features/flirt_kernel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include <Eigen/Core>
 
 namespace beaconless {
 namespace {
@@ -58,7 +59,7 @@ ScaleKernel make_scale_kernel(FlirtKernel kind, double sigma_beams) {
 
 void smooth_signal(std::span<const float> signal, const ScaleKernel& kernel, std::vector<float>& padded,
                    std::span<float> smooth) {
-  constexpr std::size_t kBlock = 16;  // samples at a time, held in registers while the taps pass
+  constexpr int kBlock = 16;  // samples at a time, held in registers while the taps pass
   const std::size_t half = kernel.half_width();
   const std::size_t size = signal.size();
   if (size == 0) return;
@@ -70,18 +71,15 @@ void smooth_signal(std::span<const float> signal, const ScaleKernel& kernel, std
   std::fill(padded.begin() + static_cast<std::ptrdiff_t>(half + size), padded.end(), signal.back());
 
   // 2. Blocks of samples, each summed from the middle outwards.
+  using Block = Eigen::Array<float, kBlock, 1>;
+  const auto block_at = [](const float* samples) { return Eigen::Map<const Block>(samples); };
   for (std::size_t begin = 0; begin < size; begin += kBlock) {
     const float* middle = padded.data() + half + begin;
-    std::array<float, kBlock> sum{};
-    for (std::size_t i = 0; i < kBlock; ++i) sum[i] = kernel.weights[0] * middle[i];
-    for (std::size_t n = 1; n <= half; ++n) {
-      const float weight = kernel.weights[n];
-      const float* before = middle - n;
-      const float* behind = middle + n;
-      for (std::size_t i = 0; i < kBlock; ++i) sum[i] += weight * (before[i] + behind[i]);
-    }
-    const std::size_t count = std::min(kBlock, size - begin);
-    std::copy_n(sum.begin(), count, smooth.begin() + static_cast<std::ptrdiff_t>(begin));
+    Block sum = kernel.weights[0] * block_at(middle);
+    for (std::size_t n = 1; n <= half; ++n)
+      sum += kernel.weights[n] * (block_at(middle - n) + block_at(middle + n));
+    std::copy_n(sum.data(), std::min<std::size_t>(kBlock, size - begin),
+                smooth.begin() + static_cast<std::ptrdiff_t>(begin));
   }
 }
 
