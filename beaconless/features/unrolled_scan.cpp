@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/features/unrolled_scan.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace beaconless {
+
+void UnrolledScan::assign(const Scan& scan, std::size_t pad) {
+  beams_ = scan.size();
+  pad_ = scan.is_full_circle() ? std::min(pad, beams_) : pad;
+  const std::size_t places = beams_ + 2 * pad_;
+  x_m.resize(places);
+  y_m.resize(places);
+  run_first.resize(places);
+  run_last.resize(places);
+
+  // 1. points: zeros, or the beams of the other end
+  const bool round = scan.is_full_circle();
+  const auto lay_out = [&](std::span<const float> from, std::vector<float>& to) {
+    const auto middle = to.begin() + static_cast<std::ptrdiff_t>(pad_);
+    std::fill(to.begin(), middle, 0.0F);
+    if (round) std::copy(from.end() - static_cast<std::ptrdiff_t>(pad_), from.end(), to.begin());
+    const auto after = std::copy(from.begin(), from.end(), middle);
+    std::fill(after, to.end(), 0.0F);
+    if (round) std::copy(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(pad_), after);
+  };
+  lay_out(scan.x_m(), x_m);
+  lay_out(scan.y_m(), y_m);
+
+  // 2. runs: from the left each place learns where its run began, from the right where it ends
+  const auto last_place = static_cast<std::uint32_t>(places - 1);
+  const auto hits = [&](std::size_t place) { return x_m[place] != 0.0F || y_m[place] != 0.0F; };
+  std::uint32_t first = 0;
+  for (std::uint32_t place = 0; place <= last_place; ++place) {
+    if (!hits(place)) first = place + 1;
+    run_first[place] = first;
+  }
+  std::uint32_t last = last_place;
+  for (std::uint32_t place = last_place;; --place) {
+    if (!hits(place)) last = place - 1;
+    run_last[place] = last;
+    if (place == 0) break;
+  }
+}
+
+}  // namespace beaconless
