@@ -13,12 +13,15 @@ constexpr double kHalfSector_rad = kPi / BscDescriptor::kSectors;
 BscDescriptor describe_one(const Scan& scan, const Keypoint& keypoint, const BscConfig& config) {
   const double radius_m = config.neighbourhood.radius_at(keypoint.point.norm());
   const Cells cells(keypoint, config.inner_m, radius_m, -kHalfSector_rad);
-  std::array<std::uint64_t, 3> words{};  // what lies outside falls into the third
-  cells.for_each_hit(scan, beams_around(scan, keypoint.point, radius_m), [&words](std::int32_t cell) {
-    const auto bit = static_cast<std::uint32_t>(cell);
-    words[bit / 64U] |= std::uint64_t{1} << (bit % 64U);
+  std::uint64_t low = 0;
+  std::uint64_t high = 0;
+  cells.for_each_hit(scan, beams_around(scan, keypoint.point, radius_m), [&](std::int32_t cell) {
+    const auto at = static_cast<std::uint32_t>(cell);
+    const std::uint64_t bit = std::uint64_t{1} << (at % 64U);
+    low |= at < 64U ? bit : 0U;
+    high |= at / 64U == 1U ? bit : 0U;  // what lies outside has 2
   });
-  return {{words[0], words[1]}};
+  return {{low, high}};
 }
 
 }  // namespace

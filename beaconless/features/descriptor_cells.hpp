@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "beaconless/features/descriptor_neighbourhood.hpp"
 #include "beaconless/features/keypoint.hpp"
@@ -66,23 +67,34 @@ class PolarCells {
   }
 
  private:
-  /// No branches, so that compilers vectorise it.
+  /// How many of the borders lie at or below a value; written out term by term, since a loop here would keep
+  /// the loop over beams from being vectorised.
+  template <std::size_t N, std::size_t... K>
+  static std::int32_t passed([[maybe_unused]] float value, [[maybe_unused]] float unit,
+                             [[maybe_unused]] const std::array<float, N>& borders,
+                             std::index_sequence<K...>) {
+    return (0 + ... + (value >= unit * borders[K + 1] ? 1 : 0));
+  }
+
   std::int32_t code(float range_m, float x_m, float y_m) const {
     const float dx = x_m - x_;
     const float dy = y_m - y_;
     const float u = cos_ * dx + sin_ * dy;
     const float v = cos_ * dy - sin_ * dx;
     const float square = dx * dx + dy * dy;
-    const float across = std::abs(v);
-    const float along = std::abs(u);
-    std::int32_t sector = 0;  // in the first quadrant …
-    for (std::size_t k = 1; k < Sectors / 4; ++k) sector += across >= slopes_[k] * along ? 1 : 0;
-    sector = u >= 0.0F ? sector : Sectors / 2 - 1 - sector;  // … the upper half …
-    sector = v >= 0.0F ? sector : Sectors - 1 - sector;      // … the circle
-    std::int32_t ring = 0;
-    for (std::size_t r = 1; r < Rings; ++r) ring += square >= squares_[r] ? Sectors : 0;
-    const bool inside = (range_m > 0.0F) & (square >= squares_[0]) & (square < squares_[Rings]);
-    return inside ? ring + sector : kOutside;
+    // All by arithmetic: what looks like a branch to the compiler keeps it from vectorising. -1 is all bits,
+    // and x ^ -1 is -1 - x.
+    const std::int32_t behind = -static_cast<std::int32_t>(u < 0.0F);
+    const std::int32_t below = -static_cast<std::int32_t>(v < 0.0F);
+    std::int32_t sector =
+        passed(std::abs(v), std::abs(u), slopes_, std::make_index_sequence<Sectors / 4 - 1>{});
+    sector = (sector ^ behind) + (behind & (Sectors / 2));
+    sector = (sector ^ below) + (below & Sectors);
+    const std::int32_t ring = passed(square, 1.0F, squares_, std::make_index_sequence<Rings - 1>{});
+    const std::int32_t inside = static_cast<std::int32_t>(range_m > 0.0F) &
+                                static_cast<std::int32_t>(square >= squares_[0]) &
+                                static_cast<std::int32_t>(square < squares_[Rings]);
+    return kOutside + ((ring * Sectors + sector - kOutside) & -inside);
   }
 
   float x_, y_, cos_, sin_;
