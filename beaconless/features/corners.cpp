@@ -11,7 +11,7 @@
 namespace beaconless {
 namespace {
 
-constexpr double kLargestFacet_m = 0.5;    // of a column
+constexpr double kLargestFacets_m = 1.0;   // two of a column
 constexpr double kRoundSlack = 6.0;        // chi²
 constexpr std::size_t kMeeting_beams = 5;  // lines with no more than this between them follow each other
 
@@ -20,19 +20,25 @@ std::size_t beams_between(const ScanLine& p, const ScanLine& q, std::size_t beam
   return (q.beams.first + 2 * beam_count - (p.beams.first + p.beams.count)) % beam_count;
 }
 
-/// Whether a wall ends at the corner, given how far apart its beams are there: not far before it, and hardly
-/// behind it, where only a wall can be seen that the other one does not touch but hides.
-bool ends_at(const Corner& corner, const ScanLine& line, const Eigen::Vector2d& end,
-             const Eigen::Vector2d& other_end, double step_rad, const CornersConfig& config) {
-  const double range_square = corner.point.squaredNorm();
+/// How a wall ends beside a corner.
+struct WallEnd {
+  double gap_m;      // from its last beam to the corner; negative where it goes on behind it
+  double spacing_m;  // of its beams there
+};
+
+WallEnd wall_end(const Corner& corner, const ScanLine& line, const Eigen::Vector2d& end,
+                 const Eigen::Vector2d& other_end, double step_rad) {
   // r Δθ / cos b with cos b = rho / r
-  const double spacing = range_square * step_rad / std::max(line.fit.line.rho_m, 1e-6);
+  const double spacing = corner.point.squaredNorm() * step_rad / std::max(line.fit.line.rho_m, 1e-6);
+  return {(other_end - end).normalized().dot(end - corner.point), spacing};
+}
+
+/// Whether a wall ends at the corner: not far before it, and hardly behind it, where only a wall can be seen
+/// that the other one does not touch but hides.
+bool ends_there(const WallEnd& end, const CornersConfig& config) {
   const double noise = config.reach_sigma * config.lines.sigma_m;
-  const double before = std::min(config.reach_most_m, config.reach_beams * spacing + noise);
-  const double behind = std::min(config.reach_most_m, config.behind_beams * spacing + noise);
-  const Eigen::Vector2d along = (other_end - end).normalized();
-  const double gap = along.dot(end - corner.point);
-  return gap <= before && gap >= -behind;
+  return end.gap_m <= std::min(config.reach_most_m, config.reach_beams * end.spacing_m + noise) &&
+         end.gap_m >= -std::min(config.reach_most_m, config.behind_beams * end.spacing_m + noise);
 }
 
 /// Of the beams at which two lines face each other, the one that met nearest to the corner.
@@ -49,10 +55,21 @@ double chi_square(const ScanLine& line, double sigma_m) {
   return ratio * ratio * static_cast<double>(line.fit.count);
 }
 
+/// Whether a wall is too straight for a chord of the circle that it and its neighbour would be on.
+///
+/// Two neighbouring chords turn by (L1 + L2)/(2R), a chord is L²/(8R) away from its arc, and an arc 0.298
+/// times that (root mean square) from the line through it.
+bool is_straight(const Corner& corner, const ScanLine& line, double both_m) {
+  const double length = line.length_m();
+  const double sagitta = length * length * (kPi - corner.angle_rad) / (4.0 * both_m);
+  return 0.298 * sagitta > 2.0 * line.fit.rms_m;
+}
+
 /// Whether the beams of two short walls lie on a circle as well as on the walls.
-bool is_round(const Scan& scan, const ScanLine& p, const ScanLine& q, double sigma_m,
+bool is_round(const Scan& scan, const Corner& corner, const ScanLine& p, const ScanLine& q, double sigma_m,
               std::vector<Eigen::Vector2d>& points) {
-  if (p.length_m() > kLargestFacet_m || q.length_m() > kLargestFacet_m) return false;
+  const double both = p.length_m() + q.length_m();
+  if (both > kLargestFacets_m || is_straight(corner, p, both) || is_straight(corner, q, both)) return false;
   points.clear();
   for (const ScanLine* line : {&p, &q})
     for (std::size_t k = 0; k < line->beams.count; ++k)
@@ -114,6 +131,7 @@ void find_corners(const Scan& scan, const CornersConfig& config, CornersScratch&
   find_lines(scan, config.lines, scratch.finding, scratch.lines);
   const std::vector<ScanLine>& lines = scratch.lines;
   const double min_sine = std::sin(radians(config.min_angle_deg));
+  const double most_apart = 2.0 * config.reach_most_m;
   const double least_score = 1.0 / config.max_sigma_m;
   const std::size_t pairs = lines.size() < 2 ? 0 : lines.size() - (scan.is_full_circle() ? 0 : 1);
   for (std::size_t i = 0; i < pairs; ++i) {
@@ -122,15 +140,19 @@ void find_corners(const Scan& scan, const CornersConfig& config, CornersScratch&
     const ScanLine& q = lines[j];
     // 1. Neighbours, long enough to have a direction.
     if (beams_between(p, q, scan.size()) > kMeeting_beams) continue;
+    if ((q.a - p.b).squaredNorm() > most_apart * most_apart) continue;
     // 2. Their crossing, sharp enough and certain enough.
     auto corner = corner_of_lines(p, q, min_sine);
     if (!corner || corner->arm_m < config.min_arm_m || corner->score < least_score) continue;
     // 3. Both end there.
     const double step = scan.angle_increment_rad();
-    if (!ends_at(*corner, p, p.b, p.a, step, config) || !ends_at(*corner, q, q.a, q.b, step, config))
-      continue;
+    const WallEnd left = wall_end(*corner, p, p.b, p.a, step);
+    const WallEnd right = wall_end(*corner, q, q.a, q.b, step);
+    if (!ends_there(left, config) || !ends_there(right, config)) continue;
+    corner->gap_m = std::max({0.0, left.gap_m - left.spacing_m, right.gap_m - right.spacing_m});
     // 4. Not two facets of a column.
-    if (config.is_round_left_out && is_round(scan, p, q, config.lines.sigma_m, scratch.points)) continue;
+    if (config.is_round_left_out && is_round(scan, *corner, p, q, config.lines.sigma_m, scratch.points))
+      continue;
     corner->first_line = i;
     corner->second_line = j;
     corner->beam = nearest_beam(scan, *corner, p, q);

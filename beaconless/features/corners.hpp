@@ -23,19 +23,20 @@ struct Corner {
   std::size_t first_line = 0;   ///< the wall on the side of lower bearings …
   std::size_t second_line = 0;  ///< … and the other, as places in the list of lines
   std::size_t beam = 0;         ///< the nearest of the beams that met either wall
-  double arm_m = 0.0;           ///< length of the shorter wall
-  double score = 0.0;           ///< 1 / standard deviation in the worst direction, 1/m
+  double gap_m = 0.0;  ///< how much further from it a wall ends than the next beam can tell; see find_corners
+  double arm_m = 0.0;  ///< length of the shorter wall
+  double score = 0.0;  ///< 1 / standard deviation in the worst direction, 1/m
 };
 
 /// When two lines make a corner.
 struct CornersConfig {
   LinesConfig lines;
   double min_angle_deg = 25.0;  ///< between the lines
-  double reach_beams = 3.0;    ///< how far from the corner a wall may end, in distances between its beams …
+  double reach_beams = 4.0;    ///< how far from the corner a wall may end, in distances between its beams …
   double behind_beams = 0.5;   ///< how far behind the corner it may still be seen, likewise …
   double reach_sigma = 3.0;    ///< … both plus sigmas of the range noise …
-  double reach_most_m = 0.25;  ///< … but never further than this
-  double min_arm_m = 0.10;     ///< shorter walls make no corner
+  double reach_most_m = 0.35;  ///< … but never further than this
+  double min_arm_m = 0.15;     ///< shorter walls make no corner
   double max_sigma_m = 0.02;   ///< corners less certain than this in any direction are left out
   bool is_round_left_out = true;  ///< no corner where a round column explains both walls as well
 };
@@ -58,6 +59,11 @@ struct CornersScratch {
 ///
 /// Out: in the order of their beams; with `lines`, the lines they refer to. The covariance is that of the two
 /// lines, N⁻¹ diag(v1, v2) N⁻ᵀ with the normals as rows of N, and honest (NEES 2) for range noise of sigma_m.
+/// Where a cupboard stands a hand's breadth before a wall, its side and the wall cross at a place that is as
+/// fixed as any corner but where nothing is. As long as the beams there are further apart than that gap,
+/// nobody can tell; `gap_m` above three sigmas says that the walls may not touch. Those with less are corners
+/// for sure but come and go with the beams, which is why the default lets some of the others in.
+///
 /// Cost: see bench/corners_bench, no allocation with a scratch.
 ///
 /// Source: dissertation 3.1, Algorithm 5. Differs: (1) normal forms, since slopes divide by zero for vertical

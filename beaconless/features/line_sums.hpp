@@ -51,10 +51,26 @@ class LineSums {
            std::sqrt(line.rho_m * line.rho_m + kLeastCosine * kLeastCosine * sums.weight / sums.count);
   }
 
-  /// Squared distances from the line in units of their variance: count - 2 on average.
-  double chi_square(const PrincipalLine& line, const PointMoments& sums) const {
-    const double unit = unit_sigma_m(line, sums);
-    return line.across_square / (unit * unit);
+  /// Squared distances from the best line, in units of their variance: count - 2 on average. As
+  /// principal_line, but without its normal: of that, rho² needs the doubled angle only.
+  double chi_square(const PointMoments& sums) const {
+    if (!(sums.weight > 0.0)) return 0.0;
+    const double inverse = 1.0 / sums.weight;
+    const double x = sums.x * inverse;
+    const double y = sums.y * inverse;
+    const double xx = std::max(0.0, sums.xx - sums.x * x);
+    const double yy = std::max(0.0, sums.yy - sums.y * y);
+    const double xy = sums.xy - sums.x * y;
+    const double root = std::sqrt((yy - xx) * (yy - xx) + 4.0 * xy * xy);
+    const double along = 0.5 * (xx + yy + root);
+    if (!(along > 0.0 && root > 0.0)) return 0.0;
+    double variance = sigma_m_ * sigma_m_;
+    if (weight_ == BeamWeight::radial) {
+      const double turned = ((yy - xx) * (x * x - y * y) - 4.0 * xy * x * y) / root;
+      const double rho_square = std::max(0.0, 0.5 * (x * x + y * y + turned));
+      variance *= rho_square + kLeastCosine * kLeastCosine * sums.weight / sums.count;
+    }
+    return std::max(0.0, xx * yy - xy * xy) / (along * variance);
   }
 
   double sigma_m() const { return sigma_m_; }

@@ -171,26 +171,29 @@ class LineFinder {
   void fit_all(std::vector<ScanLine>& lines) {
     const double least_cosine = std::sin(radians(config_.least_incidence_deg));
     for (const PlaceRun& run : runs_) {
-      if (hit_count(run) < config_.min_beams) continue;
-      const auto fit = fit_of(run);
+      const PointMoments sums = scratch_.sums.of(run.first, run.last);
+      if (static_cast<int>(sums.count + 0.5) < config_.min_beams) continue;
+      const Eigen::Vector2d first = points_[run.first];
+      const Eigen::Vector2d last = points_[run.last];
+      if ((last - first).squaredNorm() < config_.min_length_m * config_.min_length_m) continue;
+      const PrincipalLine line = principal_line(sums);
+      const double nearest_square = std::min(first.squaredNorm(), last.squaredNorm());
+      if (line.rho_m * line.rho_m < least_cosine * least_cosine * nearest_square) continue;
+
+      const bool is_tls = config_.fit.method == LineFitMethod::tls;
+      const auto fit =
+          is_tls ? fit_line_tls(sums, line, scratch_.sums.unit_sigma_m(line, sums)) : fit_otherwise(run);
       if (!fit) continue;
-      ScanLine line{.beams = points_.segment_of(run.first, run.last), .fit = *fit};
-      const Eigen::Vector2d normal = fit->line.normal();
-      line.a = points_[run.first] - (normal.dot(points_[run.first]) - fit->line.rho_m) * normal;
-      line.b = points_[run.last] - (normal.dot(points_[run.last]) - fit->line.rho_m) * normal;
-      const double nearest_square = std::min(line.a.squaredNorm(), line.b.squaredNorm());
-      const double rho = fit->line.rho_m;
-      if (rho * rho < least_cosine * least_cosine * nearest_square) continue;
-      if ((line.b - line.a).squaredNorm() < config_.min_length_m * config_.min_length_m) continue;
-      lines.push_back(line);
+      const Eigen::Vector2d normal = is_tls ? line.normal : fit->line.normal();
+      const double rho = is_tls ? line.rho_m : fit->line.rho_m;
+      lines.push_back({.beams = points_.segment_of(run.first, run.last),
+                       .fit = *fit,
+                       .a = first - (normal.dot(first) - rho) * normal,
+                       .b = last - (normal.dot(last) - rho) * normal});
     }
   }
 
-  std::optional<LineFit> fit_of(PlaceRun run) {
-    if (config_.fit.method == LineFitMethod::tls) {
-      const PointMoments sums = scratch_.sums.of(run.first, run.last);
-      return fit_line_tls(sums, scratch_.sums.unit_sigma_m(principal_line(sums), sums));
-    }
+  std::optional<LineFit> fit_otherwise(PlaceRun run) {
     scratch_.run_points.clear();
     for (std::size_t i = run.first; i <= run.last; ++i)
       if (points_.is_hit(i)) scratch_.run_points.push_back(points_[i]);

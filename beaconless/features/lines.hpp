@@ -33,7 +33,7 @@ struct LinesConfig {
   MergeConfig merging;      ///< its sigma_m is the one above
   int refine_passes = 2;    ///< how often ends of neighbours are moved to where their lines cross
   double trim_sigma = 4.0;  ///< end beams further than this from their line are left out
-  int min_beams = 5;
+  int min_beams = 4;
   double min_length_m = 0.05;
   double least_incidence_deg = 3.0;  ///< lines that every beam grazes more flatly are no walls but edges
   BeamWeight weight = BeamWeight::radial;  ///< of `tls`; the other methods have none

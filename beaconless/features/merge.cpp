@@ -8,7 +8,7 @@ namespace {
 
 // Residuals beyond sigma loosen the test up to here; more is a bend and not a rough wall.
 constexpr double kRoughest = 4.0;
-constexpr std::size_t kLooks = 12;  // for the best cut, before it is narrowed down
+constexpr std::size_t kLooks = 10;  // for the best cut, before it is narrowed down
 
 struct Judged {
   double chi_square = 0.0;
@@ -17,7 +17,7 @@ struct Judged {
 
 Judged judge(const LineSums& sums, const PointMoments& moments) {
   if (moments.count < 3.0) return {};
-  return {sums.chi_square(principal_line(moments), moments), moments.count - 2.0};
+  return {sums.chi_square(moments), moments.count - 2.0};
 }
 
 /// By how much chi² of two fits may be below that of one before they are two lines.

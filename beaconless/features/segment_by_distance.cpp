@@ -46,11 +46,12 @@ struct ByDistance {
   float slope;
   float half_chord;  // 4 sin²(Δθ/2)
 
-  bool operator()(float p, float q) const {
+  std::uint8_t operator()(float p, float q) const {
     const float difference = p - q;
     const float product = p * q;
     const float reach = offset_m + slope * std::min(p, q);
-    return !(difference * difference + half_chord * product <= reach * reach && product > 0.0F);
+    const bool is_near = difference * difference + half_chord * product <= reach * reach;
+    return static_cast<std::uint8_t>(!is_near) | static_cast<std::uint8_t>(!(product > 0.0F));
   }
 };
 
@@ -67,10 +68,9 @@ void find_breaks(const Scan& scan, const IsBreak& is_break, std::vector<std::uin
   breaks.resize(n);
   const float* const range = scan.ranges_m().data();
   std::uint8_t* const out = breaks.data();
-  for (std::size_t i = 0; i + 1 < n; ++i)
-    out[i] = static_cast<std::uint8_t>(is_break(range[i], range[i + 1]));
+  for (std::size_t i = 0; i + 1 < n; ++i) out[i] = is_break(range[i], range[i + 1]);
   const bool closes = scan.is_full_circle() && n > 1;
-  out[n - 1] = static_cast<std::uint8_t>(!closes || is_break(range[n - 1], range[0]));
+  out[n - 1] = closes ? is_break(range[n - 1], range[0]) : std::uint8_t{1};
 }
 
 }  // namespace

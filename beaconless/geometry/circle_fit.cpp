@@ -82,7 +82,7 @@ std::optional<CircleFit> fit_circle(std::span<const Eigen::Vector2d> points, dou
       circle = trial;
       normal = there;
     }
-    if (!better || move.squaredNorm() < 1e-24 * spread * spread) break;
+    if (!better || move.squaredNorm() < 1e-18 * spread * spread) break;
   }
 
   // 3. How sure it is.

@@ -62,9 +62,11 @@ void describe(Fields& fields, LineFitConfig& config) {
 }
 
 std::optional<LineFit> fit_line_tls(const PointMoments& sums, double sigma_m) {
-  if (!(sums.count >= 2.0)) return std::nullopt;
-  const PrincipalLine line = principal_line(sums);
-  if (!has_spread(line, sums)) return std::nullopt;
+  return fit_line_tls(sums, principal_line(sums), sigma_m);
+}
+
+std::optional<LineFit> fit_line_tls(const PointMoments& sums, const PrincipalLine& line, double sigma_m) {
+  if (!(sums.count >= 2.0) || !has_spread(line, sums)) return std::nullopt;
   return line_fit_of(line, sums, sigma_m);
 }
 

@@ -78,8 +78,9 @@ std::optional<LineFit> fit_line_tls(std::span<const Eigen::Vector2d> points, dou
 std::optional<LineFit> fit_line_tls(std::span<const Eigen::Vector2d> points, std::span<const double> weights,
                                     double sigma_m = 0.0);
 
-/// From sums alone, in O(1).
+/// From sums alone, in O(1); the second where their principal line is known already.
 std::optional<LineFit> fit_line_tls(const PointMoments& sums, double sigma_m = 0.0);
+std::optional<LineFit> fit_line_tls(const PointMoments& sums, const PrincipalLine& line, double sigma_m);
 
 /// The line that costs least when each point costs min(distance², tolerance²), refitted to its inliers.
 ///
