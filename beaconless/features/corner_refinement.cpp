@@ -44,14 +44,21 @@ PointNormal line_of(const Moments& of) {
   return {of.origin + Eigen::Vector2d(of.x, of.y) / of.n, {-unit.y(), unit.x()}};
 }
 
-std::optional<Eigen::Vector2d> crossing(const PointNormal& p, const PointNormal& q) {
+/// The unit vector along a line that leads from a corner on it to the points it was made of.
+Eigen::Vector2d arm_of(const PointNormal& line, const Eigen::Vector2d& corner) {
+  const Eigen::Vector2d along(-line.normal.y(), line.normal.x());
+  return along.dot(line.point - corner) < 0.0 ? Eigen::Vector2d(-along) : along;
+}
+
+std::optional<RefinedCorner> crossing(const PointNormal& p, const PointNormal& q) {
   constexpr double kLeastSine = 0.26;  // 15 degrees
   const double sine = p.normal.x() * q.normal.y() - p.normal.y() * q.normal.x();
   if (!(std::abs(sine) >= kLeastSine)) return std::nullopt;
   const double a = p.normal.dot(p.point);
   const double b = q.normal.dot(q.point);
-  return Eigen::Vector2d{(a * q.normal.y() - b * p.normal.y()) / sine,
-                         (b * p.normal.x() - a * q.normal.x()) / sine};
+  const Eigen::Vector2d corner{(a * q.normal.y() - b * p.normal.y()) / sine,
+                               (b * p.normal.x() - a * q.normal.x()) / sine};
+  return RefinedCorner{corner, (arm_of(p, corner) + arm_of(q, corner)).normalized()};
 }
 
 PointNormal line_through(const UnrolledScan& points, std::size_t first, std::size_t last) {
@@ -105,24 +112,25 @@ std::size_t place_towards(const UnrolledScan& points, const Eigen::Vector2d& to,
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> meeting_point(const UnrolledScan& points, const CornerSides& sides) {
+std::optional<RefinedCorner> meeting_point(const UnrolledScan& points, const CornerSides& sides) {
   if (sides.left_last <= sides.left_first || sides.right_last <= sides.right_first) return std::nullopt;
   return crossing(line_through(points, sides.left_first, sides.left_last),
                   line_through(points, sides.right_first, sides.right_last));
 }
 
-std::optional<Eigen::Vector2d> refine_corner(const UnrolledScan& points, CornerSides sides,
-                                             std::size_t centre, const ArmLimits& limits) {
+std::optional<RefinedCorner> refine_corner(const UnrolledScan& points, CornerSides sides, std::size_t centre,
+                                           const ArmLimits& limits) {
   const auto corner = meeting_point(points, sides);
   if (!corner) return corner;
   // 1. cut the neighbourhood where the lines meet; `split` is the first place on the far side of it
-  const std::size_t split = place_towards(points, *corner, sides.left_first + 2, sides.right_last - 1);
+  const std::size_t split = place_towards(points, corner->point, sides.left_first + 2, sides.right_last - 1);
   // 2. grow both sides from there; half of the neighbourhood is taken as it is
   const std::size_t sure_left = std::max<std::size_t>(2, (split - sides.left_first) / 2);
   const std::size_t sure_right = std::max<std::size_t>(2, (sides.right_last - split + 1) / 2);
   const auto left =
-      grown_line(points, *corner, split - 1, points.run_first[centre], false, sure_left, limits);
-  const auto right = grown_line(points, *corner, split, points.run_last[centre], true, sure_right, limits);
+      grown_line(points, corner->point, split - 1, points.run_first[centre], false, sure_left, limits);
+  const auto right =
+      grown_line(points, corner->point, split, points.run_last[centre], true, sure_right, limits);
   // 3. and let them meet again
   const auto better = left && right ? crossing(*left, *right) : std::nullopt;
   return better ? better : corner;

@@ -23,9 +23,15 @@ struct ArmLimits {
   double tolerance_m = 0.03;  ///< a point this far off its line ends the side
 };
 
+/// A corner between beams, and the unit vector from it into the area between its sides.
+struct RefinedCorner {
+  Eigen::Vector2d point;
+  Eigen::Vector2d bisector;
+};
+
 /// Where the lines through the two sides meet; nothing where they are parallel to within 15° or a side has
 /// fewer than two points.
-std::optional<Eigen::Vector2d> meeting_point(const UnrolledScan& points, const CornerSides& sides);
+std::optional<RefinedCorner> meeting_point(const UnrolledScan& points, const CornerSides& sides);
 
 /// The same with sides that are grown away from the corner while they stay straight, and cut anew where the
 /// lines meet.
@@ -33,7 +39,7 @@ std::optional<Eigen::Vector2d> meeting_point(const UnrolledScan& points, const C
 /// In: a corner's sides as a first guess, at least two points each. Out: the corner, or what meeting_point()
 /// gives for the guess. Cost: a few passes over the grown sides. Source: total least squares on both sides,
 /// intersected (dissertation Algorithm 5).
-std::optional<Eigen::Vector2d> refine_corner(const UnrolledScan& points, CornerSides sides,
-                                             std::size_t centre, const ArmLimits& limits);
+std::optional<RefinedCorner> refine_corner(const UnrolledScan& points, CornerSides sides, std::size_t centre,
+                                           const ArmLimits& limits);
 
 }  // namespace beaconless

@@ -80,7 +80,10 @@ void refine(Keypoint& keypoint, const FalkoConfig& config, const BeamNeighbourho
                           ? refine_corner(around.points, {first, centre - 1, centre + 1, last}, centre,
                                           {config.arm_m, 3.0 * config.sigma_m})
                           : meeting_point(around.points, {first, centre, centre, last});
-  if (corner && (*corner - keypoint.point).norm() <= config.subbeam_limit_m) keypoint.point = *corner;
+  if (!corner || (corner->point - keypoint.point).norm() > config.subbeam_limit_m) return;
+  keypoint.point = corner->point;
+  if (config.subbeam == SubBeam::arms)
+    keypoint.orientation_rad = wrap_angle(std::atan2(corner->bisector.y(), corner->bisector.x()));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "beaconless/core/rng.hpp"
+#include "beaconless/geometry/angle.hpp"
+#include "beaconless/geometry/pose2.hpp"
 #include "beaconless/map/floor_plan.hpp"
 #include "beaconless/map/ray_caster.hpp"
 #include "beaconless/scan/scan.hpp"
