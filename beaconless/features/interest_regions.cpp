@@ -17,8 +17,9 @@ void mark(const Scan& scan, const Keypoint& keypoint, double radius_m, std::vect
     for (std::size_t i = run.first; i < run.first + run.count; ++i) {
       const float dx = x_m[i] - x;
       const float dy = y_m[i] - y;
-      const bool near = (range_m[i] > 0.0F) & (dx * dx + dy * dy <= square);
-      mask[i] |= static_cast<std::uint8_t>(near);
+      const auto is_hit = static_cast<std::uint8_t>(range_m[i] > 0.0F);
+      const auto is_near = static_cast<std::uint8_t>(dx * dx + dy * dy <= square);
+      mask[i] |= is_hit & is_near;
     }
 }
 

@@ -6,7 +6,7 @@
 namespace beaconless {
 namespace {
 
-constexpr std::size_t kCells = ShapeContext::kSectors * ShapeContext::kRings;
+constexpr std::size_t kCells = ShapeContext::kCells;
 
 ShapeContext describe_one(const Scan& scan, const Keypoint& keypoint, const ShapeContextConfig& config) {
   // 1. Count the beams a cell; what lies outside falls into one cell more.

@@ -16,8 +16,9 @@ namespace beaconless {
 struct ShapeContext {
   static constexpr int kSectors = 12;
   static constexpr int kRings = 4;
+  static constexpr int kCells = kSectors * kRings;
 
-  std::array<float, kSectors * kRings> cells{};
+  std::array<float, kCells> cells{};
 
   friend bool operator==(const ShapeContext&, const ShapeContext&) = default;
 };

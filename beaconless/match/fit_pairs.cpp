@@ -16,6 +16,10 @@ double residual_m2(const FeatureSet& first, const FeatureSet& second, const Feat
   return (pose * first.points[pair.first] - second.points[pair.second]).squaredNorm();
 }
 
+/// sigma_m is what passes the gates, wider than what detectors do at their best; no scatter is taken for less
+/// than this share of it.
+constexpr double kLeastOfSigma = 0.1;
+
 double cauchy(double square_m2, double scale_m) { return 1.0 / (1.0 + square_m2 / (scale_m * scale_m)); }
 
 /// The covariance of a pose whose pairs scatter by sigma_m each axis, and the direction it knows least.
@@ -36,10 +40,10 @@ void tell_certainty(const FeatureSet& first, const FeatureSet& second, std::span
     squares += weight * square;
     weights += weight;
   }
-  // Few pairs fit themselves: three unknowns are taken off, and residuals by luck small are not believed.
-  const double freedom = std::max(2.0 * weights - 3.0, 1.0);
-  const double least = 0.5 * config.sigma_m;  // features found twice by one detector err less than told
-  const double sigma_m = std::max(std::sqrt(squares / freedom), least);
+  // Three unknowns are fitted, and a scatter seen from few pairs is itself uncertain: dividing by two less
+  // than the degrees of freedom gives the variance of Student's t. Residuals small by luck are not believed.
+  const double freedom = std::max(2.0 * weights - 5.0, 1.0);
+  const double sigma_m = std::max(std::sqrt(squares / freedom), kLeastOfSigma * config.sigma_m);
   result.covariance = sigma_m * sigma_m * information.inverse();
   result.scale_m = scale_m;
 }
@@ -68,11 +72,11 @@ MatchResult fit_pairs(const FeatureSet& first, const FeatureSet& second, std::sp
     if (!pose) return result;
     result.map_from_laser = {pose->x_m, pose->y_m, wrap_angle(pose->theta_rad)};
 
-    // 2. What residuals are usual; never less than half of what is told.
+    // 2. What residuals are usual.
     double sum = 0.0;
     for (const FeaturePair& pair : pairs)
       sum += std::sqrt(residual_m2(first, second, pair, result.map_from_laser));
-    scale_m = std::max(sum / static_cast<double>(pairs.size()), 0.5 * config.sigma_m);
+    scale_m = std::max(sum / static_cast<double>(pairs.size()), kLeastOfSigma * config.sigma_m);
   }
 
   // 3. A pose, and what it is worth.

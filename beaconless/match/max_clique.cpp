@@ -9,8 +9,7 @@ namespace {
 
 using Bits = std::span<std::uint64_t>;
 
-/// Calls `visit(i)` for every bit of the set that is set, ascending; bits cleared meanwhile in the word are
-/// still visited.
+/// The lowest member; the size of the set in bits where it has none.
 std::size_t first_of(std::span<const std::uint64_t> set) {
   for (std::size_t w = 0; w < set.size(); ++w)
     if (set[w] != 0) return w * 64 + static_cast<std::size_t>(std::countr_zero(set[w]));
@@ -28,7 +27,7 @@ void order(const BitGraph& graph, MaxCliqueScratch& scratch) {
   for (std::size_t a = 0; a < size; ++a)
     for (const std::uint64_t word : graph.neighbours(a))
       scratch.degree[a] += static_cast<std::size_t>(std::popcount(word));
-  constexpr std::size_t kTaken = static_cast<std::size_t>(-1);
+  constexpr auto kTaken = static_cast<std::size_t>(-1);
   for (std::size_t place = size; place-- > 0;) {
     const auto least = std::min_element(scratch.degree.begin(), scratch.degree.end());
     const auto node = static_cast<std::size_t>(least - scratch.degree.begin());
@@ -52,25 +51,26 @@ class Search {
     scratch_.current.clear();
     scratch_.best.clear();
     grow(0);
-    const Bits all = set(0, kCandidates);
+    const Bits all = candidates_at(0);
     for (std::size_t i = 0; i < scratch_.ordered.size(); ++i) all[i / 64] |= std::uint64_t{1} << (i % 64);
     expand(0);
     return left_ >= 0;
   }
 
  private:
-  enum Which : std::size_t { kCandidates, kUncoloured, kColour, kSets };
+  static constexpr std::size_t kSets = 3;  // a depth
 
-  Bits set(std::size_t depth, Which which) {
-    return Bits(scratch_.sets).subspan((depth * kSets + which) * words_, words_);
-  }
+  Bits set(std::size_t which) { return Bits(scratch_.sets).subspan(which * words_, words_); }
+  Bits candidates_at(std::size_t depth) { return set(depth * kSets); }
+  Bits uncoloured_at(std::size_t depth) { return set(depth * kSets + 1); }
+  Bits one_colour_at(std::size_t depth) { return set(depth * kSets + 2); }
 
   /// Makes room for the sets of one depth more.
   void grow(std::size_t depth) {
     const std::size_t needed = (depth + 1) * kSets * words_;
     if (scratch_.sets.size() < needed) scratch_.sets.resize(needed);
     if (scratch_.branches.size() <= depth) scratch_.branches.resize(depth + 1);
-    const Bits candidates = set(depth, kCandidates);
+    const Bits candidates = candidates_at(depth);
     std::fill(candidates.begin(), candidates.end(), 0);
   }
 
@@ -79,9 +79,9 @@ class Search {
   void colour(std::size_t depth) {
     auto& branches = scratch_.branches[depth];
     branches.clear();
-    const Bits uncoloured = set(depth, kUncoloured);
-    const Bits of_colour = set(depth, kColour);
-    std::copy_n(set(depth, kCandidates).begin(), words_, uncoloured.begin());
+    const Bits uncoloured = uncoloured_at(depth);
+    const Bits of_colour = one_colour_at(depth);
+    std::copy_n(candidates_at(depth).begin(), words_, uncoloured.begin());
     const std::size_t needed =
         scratch_.best.size() >= scratch_.current.size() ? scratch_.best.size() - scratch_.current.size() : 0;
     for (std::size_t colour = 1;; ++colour) {
@@ -107,14 +107,14 @@ class Search {
       scratch_.current.push_back(node);
       if (scratch_.current.size() > scratch_.best.size()) scratch_.best = scratch_.current;
       grow(depth + 1);
-      const Bits here = set(depth, kCandidates);
-      const Bits below = set(depth + 1, kCandidates);
+      const Bits here = candidates_at(depth);
+      const Bits below = candidates_at(depth + 1);
       const auto neighbours = scratch_.ordered.neighbours(node);
       std::uint64_t any = 0;
       for (std::size_t w = 0; w < words_; ++w) any |= below[w] = here[w] & neighbours[w];
       if (any != 0) expand(depth + 1);
       scratch_.current.pop_back();
-      remove(set(depth, kCandidates), node);
+      remove(candidates_at(depth), node);
     }
   }
 
