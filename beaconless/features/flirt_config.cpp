@@ -39,8 +39,10 @@ FlirtConfig flirt_defaults(FlirtKind kind) {
       break;
     case FlirtKind::normal_blob:
       config.sigma_beams = 2.0;
+      config.scale_step_ratio = 1.5;
+      config.scales_count = 4;
       config.window_beams = 11;
-      config.min_response = 0.18;
+      config.min_response = 0.16;
       break;
     case FlirtKind::normal_edge:
       config.sigma_beams = 1.6;
@@ -50,6 +52,7 @@ FlirtConfig flirt_defaults(FlirtKind kind) {
       break;
     case FlirtKind::curvature:
       config.min_response = 0.34;
+      config.order = FlirtOrder::finest;  // t exp(-t) is flat at its top: the strongest is any of them
       break;
   }
   return config;

@@ -18,16 +18,15 @@ bool above(float value, float sign, const std::vector<float>& other, std::size_t
 
 bool is_peak(std::span<const std::vector<float>> response, std::size_t scale, std::size_t i,
              const FlirtPeakRule& rule) {
-  // 1. Strong enough, of an allowed sign?
+  // 1. Strong enough and above its neighbours along the scan? In one question, as each of the answers alone
+  // is hard to predict for the processor.
   const std::vector<float>& here = response[scale];
-  const float value = here[i];
-  if (!(std::abs(value) > rule.min_response)) return false;
-  const float sign = value > 0.0F ? 1.0F : -1.0F;
+  const float sign = here[i] > 0.0F ? 1.0F : -1.0F;
+  const float strength = sign * here[i];
+  const float prominence = std::min(strength - sign * here[i - 1], strength - sign * here[i + 1]);
+  if (!(std::min(strength - rule.min_response, prominence - rule.min_prominence) > 0.0F)) return false;
+  // 2. Of an allowed sign …
   if (rule.falling_only && sign < 0.0F) return false;
-  // 2. Above its neighbours along the scan …
-  const float strength = sign * value;
-  if (!(strength - sign * here[i - 1] > rule.min_prominence)) return false;
-  if (!(strength - sign * here[i + 1] > rule.min_prominence)) return false;
   // 3. … and on the scales next to its own?
   if (!rule.across_scales) return true;
   if (scale > 0 && !above(strength, sign, response[scale - 1], i)) return false;
