@@ -41,6 +41,12 @@ TEST(Angle, WrapLeavesAnAngleInsideAsItIs) {
   }
 }
 
+TEST(Angle, WrapTakesOffWholeTurns) {
+  EXPECT_NEAR(wrap_angle(6.5), 0.2168, 5e-5);
+  EXPECT_NEAR(wrap_angle(-6.5), -0.2168, 5e-5);
+  EXPECT_NEAR(wrap_angle(7.0), 0.7168, 5e-5);
+}
+
 TEST(Angle, DegreesAndRadians) {
   EXPECT_DOUBLE_EQ(radians(180.0), kPi);
   EXPECT_DOUBLE_EQ(degrees(-kPi / 2.0), -90.0);
