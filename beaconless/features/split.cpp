@@ -10,6 +10,9 @@
 namespace beaconless {
 namespace {
 
+// Points on a line parallel to the chord are equally far but for rounding: the first is taken, a vertex.
+constexpr double kTie = 1.0 + 1e-12;
+
 /// The point of a piece that lies farthest from its chord; `index` is the piece's first where none lies off
 /// it.
 struct Farthest {
@@ -30,7 +33,7 @@ struct PlainRow {
       const Eigen::Vector2d arm = points[i] - a;
       const double cross = chord.x() * arm.y() - chord.y() * arm.x();
       const double square = length_square > 0.0 ? cross * cross / length_square : arm.squaredNorm();
-      if (square > best.square) best = {i, square};
+      if (square > kTie * best.square) best = {i, square};
     }
     return best;
   }
