@@ -20,8 +20,8 @@ void prepare(const FlirtConfig& config, FlirtScratch& scratch) {
   for (std::size_t scale = 0; scale < scales; ++scale) {
     const double step = std::pow(config.scale_step_ratio, static_cast<double>(scale));
     if (config.kind == FlirtKind::curvature) {
-      // Cut in metres, so the samples per sigma are the same on each scale.
-      scratch.kernels.push_back(make_scale_kernel(FlirtKernel::sampled_gaussian, kSamplesPerSigma));
+      // Cells are parts of sigma, so that the kernel is the same on each scale.
+      scratch.kernels.push_back(make_scale_kernel(FlirtKernel::sampled_gaussian, kCellsPerSigma));
       scratch.kernels.back().sigma = config.sigma_m * step;
     } else {
       scratch.kernels.push_back(make_scale_kernel(config.kernel, config.sigma_beams * step));

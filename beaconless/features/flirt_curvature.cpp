@@ -7,32 +7,26 @@
 namespace beaconless {
 namespace {
 
-/// Between the values before and at `at`.
-float between(std::span<const float> values, float at) {
-  const auto below = std::min(static_cast<std::size_t>(std::max(at, 0.0F)), values.size() - 1);
-  const auto above = std::min(below + 1, values.size() - 1);
-  const float share = at - static_cast<float>(below);
-  return values[below] + share * (values[above] - values[below]);
+constexpr std::size_t kLongestLink = 3;  // to the next point, over one, over two
+
+/// Where a point lies among the cells.
+struct Place {
+  std::size_t cell;  // at or before it
+  float share;       // of the next cell
+};
+
+Place place_of(float cells) {
+  const auto cell = static_cast<std::size_t>(cells);
+  return {cell, cells - static_cast<float>(cell)};
 }
 
-/// The contour at every multiple of `spacing_m` from the beginning of the stretch, and at its end.
-void sample(const FlirtContour& contour, const FlirtStretch& stretch, float spacing_m,
-            CurvatureScratch& scratch) {
-  const std::span along_m(scratch.along_m);
-  const float length_m = along_m[stretch.end - 1];
-  const auto count = static_cast<std::size_t>(length_m / spacing_m) + 2;
-  scratch.x.resize(count);
-  scratch.y.resize(count);
-  std::size_t i = stretch.begin;
-  for (std::size_t k = 0; k < count; ++k) {
-    const float at_m = std::min(static_cast<float>(k) * spacing_m, length_m);
-    while (i + 2 < stretch.end && along_m[i + 1] < at_m) ++i;
-    const std::size_t next = std::min(i + 1, stretch.end - 1);
-    const float gap_m = along_m[next] - along_m[i];
-    const float share = gap_m > 0.0F ? (at_m - along_m[i]) / gap_m : 0.0F;
-    scratch.x[k] = contour.x_m[i] + share * (contour.x_m[next] - contour.x_m[i]);
-    scratch.y[k] = contour.y_m[i] + share * (contour.y_m[next] - contour.y_m[i]);
-  }
+void share_out(const Place& place, float value, std::vector<float>& cells) {
+  cells[place.cell] += (1.0F - place.share) * value;
+  cells[place.cell + 1] += place.share * value;
+}
+
+float at(const Place& place, const std::vector<float>& cells) {
+  return cells[place.cell] + place.share * (cells[place.cell + 1] - cells[place.cell]);
 }
 
 }  // namespace
@@ -40,37 +34,61 @@ void sample(const FlirtContour& contour, const FlirtStretch& stretch, float spac
 void measure_contour(const FlirtContour& contour, CurvatureScratch& scratch) {
   scratch.along_m.resize(contour.size());
   for (const FlirtStretch& stretch : contour.stretches) {
-    float along_m = 0.0F;
-    for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
-      if (i > stretch.begin) {
-        const float dx = contour.x_m[i] - contour.x_m[i - 1];
-        const float dy = contour.y_m[i] - contour.y_m[i - 1];
-        along_m += std::sqrt(dx * dx + dy * dy);
+    scratch.along_m[stretch.begin] = 0.0F;
+    for (std::size_t i = stretch.begin + 1; i < stretch.end; ++i) {
+      float shortest_m = 0.0F;
+      for (std::size_t link = 1; link <= kLongestLink && stretch.begin + link <= i; ++link) {
+        const float dx = contour.x_m[i] - contour.x_m[i - link];
+        const float dy = contour.y_m[i] - contour.y_m[i - link];
+        const float way_m = scratch.along_m[i - link] + std::sqrt(dx * dx + dy * dy);
+        if (link == 1 || way_m < shortest_m) shortest_m = way_m;
       }
-      scratch.along_m[i] = along_m;
+      scratch.along_m[i] = shortest_m;
     }
   }
 }
 
 void contour_moves(const FlirtContour& contour, const FlirtStretch& stretch, double sigma_m,
-                   const ScaleKernel& kernel, CurvatureScratch& scratch, std::span<float> move_x_m,
+                   const ScaleKernel& kernel, CurvatureScratch& s, std::span<float> move_x_m,
                    std::span<float> move_y_m) {
   if (stretch.size() == 0) return;
-  // 1. Even samples along the stretch.
-  const auto spacing_m = static_cast<float>(sigma_m / kSamplesPerSigma);
-  sample(contour, stretch, spacing_m, scratch);
+  const auto points_begin = s.along_m.begin() + static_cast<std::ptrdiff_t>(stretch.begin);
+  const auto points_end = s.along_m.begin() + static_cast<std::ptrdiff_t>(stretch.end);
+  const float length_m = *std::max_element(points_begin, points_end);
+  const auto cells_per_m = static_cast<float>(kCellsPerSigma / sigma_m);
 
-  // 2. Smooth both coordinates.
-  scratch.smooth_x.resize(scratch.x.size());
-  scratch.smooth_y.resize(scratch.y.size());
-  smooth_signal(scratch.x, kernel, scratch.padded, scratch.smooth_x);
-  smooth_signal(scratch.y, kernel, scratch.padded, scratch.smooth_y);
+  // 1. Cells along the stretch, with empty ones around it as far as the kernel reaches.
+  const std::size_t around = kernel.half_width();
+  const std::size_t count = static_cast<std::size_t>(length_m * cells_per_m) + 2 * around + 2;
+  for (auto* cells : {&s.weight, &s.x, &s.y}) cells->assign(count, 0.0F);
+  for (auto* cells : {&s.smooth_weight, &s.smooth_x, &s.smooth_y}) cells->resize(count);
+  const auto place = [&](std::size_t i) {
+    return place_of(s.along_m[i] * cells_per_m + static_cast<float>(around));
+  };
 
-  // 3. Back to the points.
+  // 2. How dense the points are.
+  for (std::size_t i = stretch.begin; i < stretch.end; ++i) share_out(place(i), 1.0F, s.weight);
+  smooth_signal(s.weight, kernel, s.padded, s.smooth_weight);
+
+  // 3. The points, each as heavy as it is lonely, smoothed.
+  s.weight.assign(count, 0.0F);
   for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
-    const float at = scratch.along_m[i] / spacing_m;
-    move_x_m[i] = between(scratch.smooth_x, at) - contour.x_m[i];
-    move_y_m[i] = between(scratch.smooth_y, at) - contour.y_m[i];
+    const Place here = place(i);
+    const float weight = 1.0F / at(here, s.smooth_weight);
+    share_out(here, weight, s.weight);
+    share_out(here, weight * contour.x_m[i], s.x);
+    share_out(here, weight * contour.y_m[i], s.y);
+  }
+  smooth_signal(s.weight, kernel, s.padded, s.smooth_weight);
+  smooth_signal(s.x, kernel, s.padded, s.smooth_x);
+  smooth_signal(s.y, kernel, s.padded, s.smooth_y);
+
+  // 4. From each point to its average.
+  for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+    const Place here = place(i);
+    const float whole = at(here, s.smooth_weight);
+    move_x_m[i] = at(here, s.smooth_x) / whole - contour.x_m[i];
+    move_y_m[i] = at(here, s.smooth_y) / whole - contour.y_m[i];
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -10,32 +9,37 @@
 
 namespace beaconless {
 
-/// Buffers of contour_bend().
+/// Buffers of measure_contour() and contour_moves().
 struct CurvatureScratch {
-  std::vector<float> along_m;                   ///< arc length, one a point of the contour
-  std::vector<float> x, y, smooth_x, smooth_y;  ///< samples of one stretch, evenly spaced along it
+  std::vector<float> along_m;       ///< arc length, one a point of the contour
+  std::vector<float> weight, x, y;  ///< cells, evenly spaced along one stretch
+  std::vector<float> smooth_weight, smooth_x, smooth_y;
   std::vector<float> padded;
 };
 
-/// Arc length from the beginning of each stretch to each of its points.
+/// Cells in one sigma of the kernel that contour_moves() wants.
+inline constexpr double kCellsPerSigma = 8.0;
+
+/// Arc length from the beginning of each stretch to each of its points: the shortest way that leaves out at
+/// most two points at a time.
+///
+/// Near walls points are nearer together than the ranges are noisy, and the way from point to point zigzags
+/// to several times the wall's length; the links of three spanning trees let flirtlib cut such corners, too.
 void measure_contour(const FlirtContour& contour, CurvatureScratch& scratch);
 
-/// How far each point of a stretch moves when the contour is smoothed along itself by `sigma_m`, m.
+/// How far each point of a stretch moves when the stretch is smoothed along itself by `sigma_m`, in metres.
 ///
-/// The stretch is sampled evenly, sigma / 8 apart, and smoothed by a Gaussian of 8 samples; `kernel` is that
-/// Gaussian. In: measure_contour() done. Out: move_x_m, move_y_m, one value a point of the contour, set on
-/// the stretch only. Cost: O(length / sigma x taps), whatever the number of points.
+/// Weights are Gaussian in arc length and divided by the density of the points, so that their spacing does
+/// not count. In: measure_contour() done; `kernel` with a sigma of kCellsPerSigma. Out: one value a point of
+/// the contour, set on the stretch only. Cost: points + length / sigma x taps, not points squared.
 ///
-/// Source: Tipaldi and Arras 2010, III-C; Lafon, "Diffusion maps and geometric harmonics", 2004: dividing
-/// the weights by the densities makes them a smoothing along the curve, whatever the spacing of the points.
-/// Differs: flirtlib builds three spanning trees of the complete graph, all-pairs shortest paths and an n x n
-/// matrix on the stack (9.3 MB for 1081 beams). Along one contour shortest paths are arc lengths and the
-/// density-free average is a convolution.
+/// Source: Tipaldi and Arras 2010, III-C; density normalisation: Coifman and Lafon, "Diffusion maps", 2006,
+/// alpha = 1. Differs: flirtlib builds three spanning trees of the complete graph, all shortest paths and an
+/// n x n matrix on the stack (9.3 MB for 1081 beams). Along one contour shortest paths are differences of
+/// arc lengths, points fall into cells of an eighth of sigma, and the sums become convolutions. What is lost
+/// are links across the contour, as from the end of a near surface to the wall behind it.
 void contour_moves(const FlirtContour& contour, const FlirtStretch& stretch, double sigma_m,
                    const ScaleKernel& kernel, CurvatureScratch& scratch, std::span<float> move_x_m,
                    std::span<float> move_y_m);
-
-/// Samples in one sigma of the kernel that contour_moves() wants.
-inline constexpr double kSamplesPerSigma = 8.0;
 
 }  // namespace beaconless
