@@ -42,13 +42,7 @@ Result<LocalizerConfig> config_of(const LocalizeWords& words) {
     if (!pose) return pose.error();
     config.base_from_laser = *pose;
   }
-  for (const std::string& pair : words.set) {
-    const auto equals = pair.find('=');
-    if (equals == std::string::npos)
-      return Error{"--set " + pair, "there is no \"=\"", "write --set name=value"};
-    if (auto set = set_field(fields, pair.substr(0, equals), pair.substr(equals + 1)); !set)
-      return set.error();
-  }
+  if (auto set = set_parameters(fields, words.set); !set) return set.error();
   return config;
 }
 

@@ -14,6 +14,17 @@ constexpr double kFarthest = 1e7;  // metres or degrees; nobody means more
 
 }  // namespace
 
+Result<Done> set_parameters(const std::vector<Field>& fields, const std::vector<std::string>& pairs) {
+  for (const std::string& pair : pairs) {
+    const auto equals = pair.find('=');
+    if (equals == std::string::npos)
+      return Error{"--set " + pair, "there is no \"=\"", "write --set name=value"};
+    if (auto set = set_field(fields, pair.substr(0, equals), pair.substr(equals + 1)); !set)
+      return set.error();
+  }
+  return Done{};
+}
+
 Result<Pose2> pose_from_words(std::string_view option, std::string_view text) {
   const auto words = split_words(text, ", ");
   const Error error{std::string(option), "\"" + std::string(text) + "\" is no pose",

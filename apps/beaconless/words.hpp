@@ -4,7 +4,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "beaconless/core/describe.hpp"
 #include "beaconless/core/result.hpp"
 #include "beaconless/geometry/pose2.hpp"
 #include "beaconless/io/recording.hpp"
@@ -17,6 +19,9 @@ namespace beaconless::cli {
 
 /// Reads "x,y,deg" as people type a pose: metres, metres, degrees.
 Result<Pose2> pose_from_words(std::string_view option, std::string_view text);
+
+/// Applies `--set name=value` words one after the other.
+Result<Done> set_parameters(const std::vector<Field>& fields, const std::vector<std::string>& pairs);
 
 /// What keeps an option's text from being a finite number above 0 (or from 0 on); "" when nothing does.
 std::string not_positive(const std::string& text);

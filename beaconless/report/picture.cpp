@@ -118,6 +118,29 @@ std::string opening(const Picture& picture, double height_px, std::string_view a
       number(picture.width_px), number(height_px), attributes, escaped(picture.label));
 }
 
+/// A picture on paper with its legend below, and how high both are.
+struct Drawn {
+  std::string body;
+  double height_px = 0.0;
+};
+
+Drawn with_legend(const Picture& picture) {
+  Svg legend;
+  Eigen::Vector2d at(8.0, picture.height_px + 4.0);
+  for (const LegendEntry& entry : picture.legend) {
+    // Bytes count letters of other alphabets twice: rather too wide than on top of each other.
+    const double width = kMarkWidth + 6.0 + kLetterWidth * static_cast<double>(entry.text.size()) + 16.0;
+    if (at.x() > 8.0 && at.x() + width > picture.width_px) at = {8.0, at.y() + kLegendRow};
+    draw_mark(legend, entry, at);
+    legend.text(at + Eigen::Vector2d(kMarkWidth + 6.0, 0.5 * kMarkHeight), entry.text, "", TextSide::middle);
+    at.x() += width;
+  }
+  const double height = picture.legend.empty() ? picture.height_px : at.y() + kLegendRow;
+  Svg paper;
+  paper.rect(Eigen::Vector2d::Zero(), {picture.width_px, height}, "paper");
+  return {paper.body() + picture.svg.body() + legend.body(), height};
+}
+
 }  // namespace
 
 std::string_view to_string(Colour colour) {
@@ -145,23 +168,45 @@ std::string svg_inline(const LegendEntry& entry) {
 }
 
 std::string svg_file(const Picture& picture) {
-  Svg legend;
-  Eigen::Vector2d at(8.0, picture.height_px + 4.0);
-  for (const LegendEntry& entry : picture.legend) {
-    // Bytes count letters of other alphabets twice: rather too wide than on top of each other.
-    const double width = kMarkWidth + 6.0 + kLetterWidth * static_cast<double>(entry.text.size()) + 16.0;
-    if (at.x() > 8.0 && at.x() + width > picture.width_px) at = {8.0, at.y() + kLegendRow};
-    draw_mark(legend, entry, at);
-    legend.text(at + Eigen::Vector2d(kMarkWidth + 6.0, 0.5 * kMarkHeight), entry.text, "", TextSide::middle);
-    at.x() += width;
-  }
-  const double height = picture.legend.empty() ? picture.height_px : at.y() + kLegendRow;
-  Svg paper;
-  paper.rect(Eigen::Vector2d::Zero(), {picture.width_px, height}, "paper");
+  const Drawn drawn = with_legend(picture);
   const std::string size =
-      fmt::format(" width=\"{}\" height=\"{}\"", number(picture.width_px), number(height));
-  return opening(picture, height, size) + "<style>" + picture_css() + "</style>\n" + paper.body() +
-         picture.svg.body() + legend.body() + "</svg>\n";
+      fmt::format(" width=\"{}\" height=\"{}\"", number(picture.width_px), number(drawn.height_px));
+  return opening(picture, drawn.height_px, size) + "<style>" + picture_css() + "</style>\n" + drawn.body +
+         "</svg>\n";
+}
+
+std::string svg_sheet(std::span<const TitledPicture> pictures) {
+  constexpr double kMargin_px = 24.0;
+  constexpr double kTitle_px = 34.0;
+  double width = 0.0;
+  for (const TitledPicture& titled : pictures)
+    width = std::max(width, titled.picture.width_px + 2.0 * kMargin_px);
+  std::string body;
+  Eigen::Vector2d at(kMargin_px, kMargin_px);
+  double row_px = 0.0;
+  for (const TitledPicture& titled : pictures) {
+    const Drawn drawn = with_legend(titled.picture);
+    const double picture_px = titled.picture.width_px;
+    if (at.x() + picture_px + kMargin_px > width + 1.0) {
+      at = {kMargin_px, at.y() + row_px + kMargin_px};
+      row_px = 0.0;
+    }
+    Svg title;
+    title.text(at + Eigen::Vector2d(0.0, 0.5 * kTitle_px), titled.title, "title", TextSide::middle);
+    body +=
+        title.body() + fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", number(at.x()),
+                                   number(at.y() + kTitle_px), number(picture_px), number(drawn.height_px));
+    body += drawn.body + "</svg>\n";
+    row_px = std::max(row_px, kTitle_px + drawn.height_px);
+    at.x() += picture_px + kMargin_px;
+  }
+  const double height = at.y() + row_px + kMargin_px;
+  const Picture sheet{width, height, {}, "several pictures", {}, {}};
+  Svg paper;
+  paper.rect(Eigen::Vector2d::Zero(), {width, height}, "paper");
+  const std::string size = fmt::format(" width=\"{}\" height=\"{}\"", number(width), number(height));
+  return opening(sheet, height, size) + "<style>" + picture_css() + "</style>\n" + paper.body() + body +
+         "</svg>\n";
 }
 
 }  // namespace beaconless::report

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,5 +68,14 @@ std::string svg_inline(const LegendEntry& entry);
 
 /// A file of its own, with background, style and legend.
 std::string svg_file(const Picture& picture);
+
+/// A picture and what stands above it.
+struct TitledPicture {
+  std::string title;
+  Picture picture;
+};
+
+/// Several pictures in one file, in rows as wide as the widest of them, each with its title and its legend.
+std::string svg_sheet(std::span<const TitledPicture> pictures);
 
 }  // namespace beaconless::report
