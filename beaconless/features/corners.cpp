@@ -15,9 +15,9 @@ constexpr double kLargestFacets_m = 1.0;   // two of a column
 constexpr double kRoundSlack = 6.0;        // chi²
 constexpr std::size_t kMeeting_beams = 5;  // lines with no more than this between them follow each other
 
-/// How many beams lie between two lines that follow each other.
-std::size_t beams_between(const ScanLine& p, const ScanLine& q, std::size_t beam_count) {
-  return (q.beams.first + 2 * beam_count - (p.beams.first + p.beams.count)) % beam_count;
+/// How many beams further on than the last beam of one line the next one begins; 0 where they share it.
+std::size_t beams_apart(const ScanLine& p, const ScanLine& q, std::size_t beam_count) {
+  return (q.beams.first + 2 * beam_count + 1 - (p.beams.first + p.beams.count)) % beam_count;
 }
 
 /// How a wall ends beside a corner.
@@ -139,7 +139,7 @@ void find_corners(const Scan& scan, const CornersConfig& config, CornersScratch&
     const ScanLine& p = lines[i];
     const ScanLine& q = lines[j];
     // 1. Neighbours, long enough to have a direction.
-    if (beams_between(p, q, scan.size()) > kMeeting_beams) continue;
+    if (beams_apart(p, q, scan.size()) > kMeeting_beams + 1) continue;
     if ((q.a - p.b).squaredNorm() > most_apart * most_apart) continue;
     // 2. Their crossing, sharp enough and certain enough.
     auto corner = corner_of_lines(p, q, min_sine);

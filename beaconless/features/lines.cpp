@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "beaconless/geometry/angle.hpp"
 
@@ -11,9 +12,22 @@ namespace {
 
 constexpr std::size_t kSearch_beams = 12;  // how far the end of a line may be moved in one pass
 constexpr std::size_t kMeeting_beams = 5;  // neighbours with no more than this between them meet
+constexpr std::size_t kShort_beams = 20;   // longer pieces across a corner do not come from noise
 constexpr double kLeastCrossing = 0.1;     // sine of the angle below which a crossing says little
 
 double cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return p.x() * q.y() - p.y() * q.x(); }
+
+/// The cosine of the incidence of a beam on a line, not below what is said of it in line_sums.hpp.
+double cosine_at(const OrderedPoints& points, std::size_t at, const PrincipalLine& line) {
+  return std::clamp(std::abs(line.rho_m) / static_cast<double>(points.ranges_m[at]), 0.1, 1.0);
+}
+
+std::optional<Eigen::Vector2d> crossing_of(const PrincipalLine& p, const PrincipalLine& q) {
+  const double sine = cross(p.normal, q.normal);
+  if (!(std::abs(sine) > kLeastCrossing)) return std::nullopt;
+  return Eigen::Vector2d{(p.rho_m * q.normal.y() - q.rho_m * p.normal.y()) / sine,
+                         (q.rho_m * p.normal.x() - p.rho_m * q.normal.x()) / sine};
+}
 
 /// Two runs that follow each other; the second may be the first one again, a turn further on.
 struct Neighbours {
@@ -42,8 +56,7 @@ std::size_t first_beyond(const OrderedPoints& points, const Eigen::Vector2d& cro
 /// Whether a beam lies on a line, give or take its noise and what is usual on that line.
 bool is_on(const OrderedPoints& points, std::size_t at, const DrawnLine& drawn, const LinesConfig& config) {
   if (!points.is_hit(at)) return false;
-  const double cosine = std::abs(drawn.line.rho_m) / static_cast<double>(points.ranges_m[at]);
-  const double across = config.sigma_m * std::clamp(cosine, 0.1, 1.0);
+  const double across = config.sigma_m * cosine_at(points, at, drawn.line);
   const double most = config.trim_sigma * config.trim_sigma * std::max(across * across, drawn.mean_square_m2);
   const double distance = drawn.line.signed_distance_m(points[at]);
   return distance * distance <= most;
@@ -56,13 +69,8 @@ void part(const OrderedPoints& points, const DrawnLine& p, const DrawnLine& q, c
   if (!pair.meet()) return;
   std::size_t& last = pair.left.last;
   std::size_t first = pair.right.first + pair.turn;
-  const double sine = cross(p.line.normal, q.line.normal);
-  if (std::abs(sine) > kLeastCrossing) {
-    const Eigen::Vector2d& np = p.line.normal;
-    const Eigen::Vector2d& nq = q.line.normal;
-    const Eigen::Vector2d crossing((p.line.rho_m * nq.y() - q.line.rho_m * np.y()) / sine,
-                                   (q.line.rho_m * np.x() - p.line.rho_m * nq.x()) / sine);
-    if (const std::size_t beyond = first_beyond(points, crossing, pair); beyond != 0) {
+  if (const auto crossing = crossing_of(p.line, q.line)) {
+    if (const std::size_t beyond = first_beyond(points, *crossing, pair); beyond != 0) {
       if (last >= beyond) last = beyond - 1;
       if (first < beyond) first = beyond;
       while (last + 1 < beyond && is_on(points, last + 1, p, config)) ++last;
@@ -92,6 +100,7 @@ class LineFinder {
     points_ = ordered_points(scan_, scratch_.pieces, scratch_.points);
     scratch_.sums.build(points_, config_.sigma_m, config_.weight);
     place_and_merge();
+    if (config_.refine_passes > 0) absorb();
     for (int pass = 0; pass < config_.refine_passes; ++pass) refine();
     fit_all(lines);
   }
@@ -145,6 +154,47 @@ class LineFinder {
   int hit_count(PlaceRun run) const {
     return static_cast<int>(scratch_.sums.of(run.first, run.last).count + 0.5);
   }
+
+  /// Short pieces across a corner, which the split leaves where noise hid the vertex: their beams go to the
+  /// walls on either side where those explain them.
+  void absorb() {
+    std::size_t kept = 1;
+    for (std::size_t i = 1; i + 1 < runs_.size(); ++i)
+      if (!is_absorbed(runs_[kept - 1], runs_[i], runs_[i + 1])) runs_[kept++] = runs_[i];
+    if (runs_.size() < 3) return;
+    runs_[kept++] = runs_.back();
+    runs_.resize(kept);
+  }
+
+  bool is_absorbed(PlaceRun& before, PlaceRun run, PlaceRun& after) const {
+    const std::size_t count = run.last - run.first + 1;
+    if (count > kShort_beams || run.first > before.last + kMeeting_beams + 1 ||
+        after.first > run.last + kMeeting_beams + 1)
+      return false;
+    if (before.last - before.first < count || after.last - after.first < count) return false;
+    const PrincipalLine p = line_of(before);
+    const PrincipalLine q = line_of(after);
+    const auto crossing = crossing_of(p, q);
+    if (!crossing) return false;
+    double chi_square = 0.0;
+    std::size_t beyond = run.last + 1;
+    for (std::size_t at = run.last + 1; at-- > run.first;) {
+      if (!points_.is_hit(at)) continue;
+      const bool is_before = cross(*crossing, points_[at]) <= 0.0;
+      if (!is_before) beyond = at;
+      const PrincipalLine& line = is_before ? p : q;
+      const double across = config_.sigma_m * cosine_at(points_, at, line);
+      const double distance = line.signed_distance_m(points_[at]) / across;
+      chi_square += distance * distance;
+    }
+    const double n = static_cast<double>(count);
+    if (chi_square > n + config_.trim_sigma * std::sqrt(2.0 * n)) return false;
+    before.last = std::max(before.last, beyond - 1);
+    after.first = std::min(after.first, beyond);
+    return true;
+  }
+
+  PrincipalLine line_of(PlaceRun run) const { return principal_line(scratch_.sums.of(run.first, run.last)); }
 
   /// 3. Ends to where neighbours cross, then off the beams that lie on neither.
   void refine() {

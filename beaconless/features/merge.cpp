@@ -8,6 +8,8 @@ namespace {
 
 // Residuals beyond sigma loosen the test up to here; more is a bend and not a rough wall.
 constexpr double kRoughest = 4.0;
+constexpr double kCutAgain =
+    1.5;  // a cut is the best of many, so more must speak for it than for two pieces met
 constexpr std::size_t kLooks = 10;  // for the best cut, before it is narrowed down
 
 struct Judged {
@@ -45,14 +47,14 @@ void describe(Fields& fields, MergeConfig& config) {
 
 std::size_t best_cut(const LineSums& sums, const MergeConfig& config, PlaceRun run) {
   const Judged one = judge(sums, sums.of(run.first, run.last));
-  if (one.chi_square - one.freedom <= config.chi_square) return run.last;
+  if (one.chi_square - one.freedom <= kCutAgain * config.chi_square) return run.last;
   std::size_t best = run.last;
   double most = 0.0;
   const auto look_at = [&](std::size_t cut) {
     const Judged left = judge(sums, sums.of(run.first, cut));
     const Judged right = judge(sums, sums.of(cut + 1, run.last));
     const double excess = one.chi_square - left.chi_square - right.chi_square;
-    const double over = excess - most_excess(config, left, right);
+    const double over = excess - kCutAgain * most_excess(config, left, right);
     if (over <= most) return;
     most = over;
     best = cut;
