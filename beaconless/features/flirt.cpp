@@ -64,7 +64,7 @@ void respond_to_signal(const FlirtConfig& config, FlirtScratch& s) {
 }
 
 void respond_to_bends(FlirtScratch& s) {
-  measure_contour(s.contour, s.curvature);
+  measure_contour(s.contour, 4.0 * s.kernels.back().sigma, s.curvature);
   for (std::size_t scale = 0; scale < s.kernels.size(); ++scale) {
     const double sigma_m = s.kernels[scale].sigma;
     std::vector<float>& response = s.response[scale];

@@ -31,7 +31,8 @@ float at(const Place& place, const std::vector<float>& cells) {
 
 }  // namespace
 
-void measure_contour(const FlirtContour& contour, CurvatureScratch& scratch) {
+void measure_contour(const FlirtContour& contour, double longest_m, CurvatureScratch& scratch) {
+  const auto most_m = static_cast<float>(longest_m);
   scratch.along_m.resize(contour.size());
   for (const FlirtStretch& stretch : contour.stretches) {
     scratch.along_m[stretch.begin] = 0.0F;
@@ -40,8 +41,10 @@ void measure_contour(const FlirtContour& contour, CurvatureScratch& scratch) {
       for (std::size_t link = 1; link <= kLongestLink && stretch.begin + link <= i; ++link) {
         const float dx = contour.x_m[i] - contour.x_m[i - link];
         const float dy = contour.y_m[i] - contour.y_m[i - link];
-        const float way_m = scratch.along_m[i - link] + std::sqrt(dx * dx + dy * dy);
-        if (link == 1 || way_m < shortest_m) shortest_m = way_m;
+        const float length_m = std::sqrt(dx * dx + dy * dy);
+        const float way_m = scratch.along_m[i - link] + std::min(length_m, most_m);
+        // What was cut short is no way to leave points out.
+        if (link == 1 || (length_m < most_m && way_m < shortest_m)) shortest_m = way_m;
       }
       scratch.along_m[i] = shortest_m;
     }

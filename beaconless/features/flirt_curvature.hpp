@@ -25,7 +25,9 @@ inline constexpr double kCellsPerSigma = 8.0;
 ///
 /// Near walls points are nearer together than the ranges are noisy, and the way from point to point zigzags
 /// to several times the wall's length; the links of three spanning trees let flirtlib cut such corners, too.
-void measure_contour(const FlirtContour& contour, CurvatureScratch& scratch);
+/// A link counts for `longest_m` at most: 4 sigma are as far apart for the kernel as 40, at a tenth of the
+/// cells.
+void measure_contour(const FlirtContour& contour, double longest_m, CurvatureScratch& scratch);
 
 /// How far each point of a stretch moves when the stretch is smoothed along itself by `sigma_m`, in metres.
 ///

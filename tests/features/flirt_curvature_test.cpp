@@ -129,7 +129,7 @@ struct Fast {
 
 Fast fast_moves(const FlirtContour& contour, double sigma_m) {
   Fast fast;
-  measure_contour(contour, fast.scratch);
+  measure_contour(contour, 10.0, fast.scratch);
   fast.x.resize(contour.size());
   fast.y.resize(contour.size());
   contour_moves(contour, contour.stretches[0], sigma_m,
@@ -192,13 +192,27 @@ TEST(MeasureContour, IsNotMisledByNoise) {
   }
   straight.stretches.push_back({0, 600, 0, 600, false});
   CurvatureScratch scratch;
-  measure_contour(straight, scratch);
+  measure_contour(straight, 10.0, scratch);
   double zigzag_m = 0.0;
   for (std::size_t i = 1; i < 600; ++i)
     zigzag_m += std::hypot(straight.x_m[i] - straight.x_m[i - 1], straight.y_m[i] - straight.y_m[i - 1]);
   EXPECT_GT(zigzag_m, 4.0);  // of a wall of 3 m
   EXPECT_LT(scratch.along_m.back(), 3.4);
   EXPECT_GE(scratch.along_m.back(), 2.99);
+}
+
+TEST(MeasureContour, ALongLinkCountsForTheLimit) {
+  FlirtContour contour;
+  for (const float x : {0.0F, 1.0F, 80.0F, 81.0F}) {
+    contour.beam.push_back(static_cast<std::uint32_t>(contour.beam.size()));
+    contour.range_m.push_back(x + 1.0F);
+    contour.x_m.push_back(x);
+    contour.y_m.push_back(0.0F);
+  }
+  contour.stretches.push_back({0, 4, 0, 4, false});
+  CurvatureScratch scratch;
+  measure_contour(contour, 3.0, scratch);
+  EXPECT_EQ(scratch.along_m, (std::vector<float>{0.0F, 1.0F, 4.0F, 5.0F}));
 }
 
 }  // namespace
