@@ -15,7 +15,8 @@ namespace beaconless {
 /// When two neighbouring pieces are one line.
 struct MergeConfig {
   double sigma_m = 0.01;     ///< range noise
-  double chi_square = 16.0;  ///< by how much one line may fit worse than two; four sigmas
+  double chi_square = 12.0;  ///< by how much one line may fit worse than two; two degrees of freedom pass it
+                             ///< by chance once in 400
   int bridge_beams = 3;      ///< beams between two pieces that may belong to neither
 };
 
