@@ -48,4 +48,19 @@ class Latencies {
   std::vector<double> taken_us_;
 };
 
+/// Times `find(scan)` for every scan of a drive; it gives how many it found.
+template <class Drive, class Find>
+void each_scan(benchmark::State& state, const Drive& drive, Find&& find) {
+  Latencies latencies;
+  double found = 0.0;
+  double scans = 0.0;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+      found += static_cast<double>(latencies.measure([&] { return find(drive.scan(i)); }));
+      scans += 1.0;
+    }
+  latencies.report(state);
+  state.counters["per_scan"] = found / scans;
+}
+
 }  // namespace beaconless::bench

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "beaconless/features/detector.hpp"
 #include "beaconless/localize/make_localizer.hpp"
 
 #include "commands.hpp"
@@ -16,11 +17,10 @@ std::string in_table(std::string text) {
   return text;
 }
 
-int params(const Console& console, bool markdown) {
-  LocalizerConfig config;
+nlohmann::json list_of(const Console& console, const std::vector<Field>& fields, bool markdown) {
   nlohmann::json list = nlohmann::json::array();
   if (markdown) console.say("| parameter | default | allowed | what it is for |\n|---|---|---|---|");
-  for (const Field& field : fields_of(config)) {
+  for (const Field& field : fields) {
     list.push_back({{"name", field.name},
                     {"default", field.text()},
                     {"allowed", field.allowed()},
@@ -32,10 +32,28 @@ int params(const Console& console, bool markdown) {
       console.say(
           fmt::format("{:<32} {:<10} {}  [{}]", field.name, field.text(), field.sentence, field.allowed()));
   }
+  return list;
+}
+
+template <class Named>
+nlohmann::json names_of(const Named& all) {
   nlohmann::json names = nlohmann::json::array();
-  for (const Method& method : methods())
-    names.push_back({{"name", method.name}, {"sentence", method.sentence}});
-  console.result({{"parameters", list}, {"methods", names}});
+  for (const auto& of : all) names.push_back({{"name", of.name}, {"sentence", of.sentence}});
+  return names;
+}
+
+int params(const Console& console, bool markdown, bool features) {
+  nlohmann::json result;
+  if (features) {
+    DetectorsConfig config;
+    result = {{"parameters", list_of(console, fields_of(config), markdown)},
+              {"detectors", names_of(detectors())}};
+  } else {
+    LocalizerConfig config;
+    result = {{"parameters", list_of(console, fields_of(config), markdown)},
+              {"methods", names_of(methods())}};
+  }
+  console.result(result);
   return exit_good;
 }
 
@@ -44,8 +62,12 @@ int params(const Console& console, bool markdown) {
 void add_params(CLI::App& app, Console& console, int& exit_code) {
   auto* command = app.add_subcommand("params", "List every parameter with its default, range and meaning");
   auto markdown = std::make_shared<bool>(false);
+  auto features = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown, "As a Markdown table");
-  command->callback([&console, &exit_code, markdown] { exit_code = params(console, *markdown); });
+  command->add_flag("--features", *features,
+                    "Those of the detectors (beaconless features), not of the localizers");
+  command->callback(
+      [&console, &exit_code, markdown, features] { exit_code = params(console, *markdown, *features); });
 }
 
 }  // namespace beaconless::cli

@@ -47,10 +47,13 @@ Picture counted(const std::string& what, double most_m, Count count) {
       {.width_px = 1000.0});
 }
 
+/// A small picture of segments alone; its title says what they are.
 TitledPicture segmented(const Scan& scan, std::vector<ScanSegment> segments, const std::string& title) {
   report::ScanLayers layers;
   layers.segments = std::move(segments);
-  return {title, report::draw_scan(scan, layers, {.width_px = 317.0, .max_height_px = 460.0})};
+  Picture picture = report::draw_scan(scan, layers, {.width_px = 317.0, .max_height_px = 460.0});
+  picture.legend = {{fmt::format("{} segments", layers.segments.size()), report::Mark::dots, Colour::blue}};
+  return {title, std::move(picture)};
 }
 
 }  // namespace

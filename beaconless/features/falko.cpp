@@ -142,7 +142,7 @@ void describe(Fields& fields, FalkoConfig& config) {
   fields("base_ratio", config.base_ratio, {1.0, 100.0},
          "base and height of the triangle are at least the radius divided by this");
   fields("sectors", config.sectors, {4, 64},
-         "sectors that the directions of neighbours are sorted into; in fours");
+         "sectors that the directions of neighbours are sorted into; rounded down to a multiple of four");
   fields("centred_sectors", config.centred_sectors, "the bisector is the middle of a sector, not a limit");
   fields("min_score_percent", config.min_score_percent, {0.0, 100.0},
          "least score, in percent of what the greatest disorder of the scan leaves");

@@ -68,7 +68,9 @@ void draw_scale_bar(Svg& svg, const WorldView& view) {
   bar.line_to({end.x(), y});
   svg.path(bar, "line thick ink");
   svg.text({end.x() - length - 10.0, y}, significant(length_m, 1) + " m", "end", TextSide::middle);
-  svg.text({view.top_left_px.x(), y}, "x to the right, y up, in metres", "soft", TextSide::middle);
+  constexpr double kSentence_px = 260.0;
+  if (end.x() - length - view.top_left_px.x() > kSentence_px)
+    svg.text({view.top_left_px.x(), y}, "x to the right, y up, in metres", "soft", TextSide::middle);
 }
 
 }  // namespace beaconless::report
