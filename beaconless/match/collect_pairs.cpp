@@ -19,6 +19,7 @@ MatchResult collect_pairs(const FeatureSet& first, const FeatureSet& second,
   out.clear();
   out.reserve(candidates.size());
   scratch.near.reserve(candidates.size());
+  scratch.previous.reserve(candidates.size());
   for (int round = 1; round <= kRounds; ++round) {
     // 1. What lies together at this pose.
     const Pose2 pose = result.map_from_laser;

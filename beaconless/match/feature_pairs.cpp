@@ -32,6 +32,8 @@ void describe(Fields& fields, PairingConfig& config) {
          "features whose orientations differ more from the guess are not paired");
   fields("max_candidates", config.max_candidates, {3, 4096}, "the most alike so many pairs are considered");
   fields("min_pairs", config.min_pairs, {2, 1000}, "fewer pairs that agree make no match");
+  fields("max_chance", config.max_chance, {0.0, 1e12},
+         "a match that chance alone would make more often than this is none; large: all are believed");
 }
 
 void candidate_pairs(const FeatureSet& first, const FeatureSet& second, std::span<const float> distances,

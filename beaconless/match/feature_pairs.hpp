@@ -38,6 +38,7 @@ struct PairingConfig {
   double gate_rad = kPi;      ///< nor those whose orientations differ more from the guess
   int max_candidates = 1000;  ///< the cheapest so many are considered
   int min_pairs = 3;          ///< fewer make no match
+  double max_chance = 1.0;    ///< matches that pairs_by_chance() expects more often than this are refused
 
   /// Squared distance that two positions of one feature exceed in 5 % of cases (chi², 2 degrees of freedom).
   double same_place_m2() const { return 5.991 * 2.0 * sigma_m * sigma_m; }

@@ -53,8 +53,9 @@ void find_peaks(const std::vector<Bin>& bins, int most, std::vector<Bin>& smooth
         here >= smoothed[(k + 1) % count].votes)
       peaks.push_back(k);
   }
-  std::stable_sort(peaks.begin(), peaks.end(),
-                   [&](std::size_t a, std::size_t b) { return smoothed[a].votes > smoothed[b].votes; });
+  std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) {
+    return smoothed[a].votes > smoothed[b].votes || (smoothed[a].votes == smoothed[b].votes && a < b);
+  });
   peaks.resize(std::min(peaks.size(), static_cast<std::size_t>(most)));
 }
 

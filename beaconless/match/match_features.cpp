@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "beaconless/match/fit_pairs.hpp"
+#include "beaconless/match/pairs_by_chance.hpp"
 
 namespace beaconless {
 namespace {
@@ -16,6 +17,14 @@ std::optional<PairsPose> clique_pose(const FeatureSet& first, const FeatureSet& 
   const MatchResult fit = fit_pairs(first, second, scratch.seeds, {}, config.pairing);
   if (!fit.usable()) return std::nullopt;
   return PairsPose{.second_from_first = fit.map_from_laser, .certain = certain};
+}
+
+MatchResult no_match(const Pose2& guess, std::size_t pair_count) {
+  MatchResult none;
+  none.map_from_laser = guess;
+  none.status = MatchStatus::too_few_pairs;
+  none.pair_count = static_cast<int>(pair_count);
+  return none;
 }
 
 std::optional<PairsPose> find_pose(const FeatureSet& first, const FeatureSet& second,
@@ -58,9 +67,8 @@ void match_features(const FeatureSet& first, const FeatureSet& second, const Fea
   // 1. What may be the same at all.
   candidate_pairs(first, second, descriptor_distances, guess, config.pairing, scratch.candidates);
   out.pairs.clear();
-  out.result = MatchResult{};
-  out.result.map_from_laser = guess;
-  out.result.status = MatchStatus::too_few_pairs;
+  out.chance = 1.0;
+  out.result = no_match(guess, 0);
 
   // 2. A pose, 3. all pairs that it makes agree.
   if (config.method == FeatureMatchMethod::mutual_nearest) {
@@ -70,6 +78,8 @@ void match_features(const FeatureSet& first, const FeatureSet& second, const Fea
     out.result = collect_pairs(first, second, scratch.candidates, pose->second_from_first, config.pairing,
                                scratch.collect, out.pairs);
     if (out.result.usable() && !pose->certain) out.result.status = MatchStatus::max_iterations;
+    out.chance = pairs_by_chance(first, second, scratch.candidates.size(), out.pairs.size(), config.pairing);
+    if (out.chance > config.pairing.max_chance) out.result = no_match(guess, out.pairs.size());
   }
 
   // 4. What it explains.

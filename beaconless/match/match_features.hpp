@@ -40,6 +40,8 @@ void describe(Fields& fields, FeatureMatchConfig& config);
 struct FeatureMatch {
   MatchResult result;
   std::vector<FeaturePair> pairs;
+  double chance =
+      1.0;  ///< pairs_by_chance() of them; mutual_nearest, which has a guess to stand on, leaves 1
 };
 
 /// Buffers that live on from call to call.
@@ -57,7 +59,8 @@ struct FeatureMatchScratch {
 /// In: two sets; `descriptor_distances` empty or as the function of that name gives them; a guess, which only
 /// mutual_nearest needs and which otherwise matters where `gate_m` is set. Out: pairs and second_from_first
 /// with its covariance. Status: converged; max_iterations where the search was cut short and something better
-/// may exist; too_few_pairs (pose: the guess) where fewer than min_pairs agree. `on_map_ratio` is the share
+/// may exist; too_few_pairs (pose: the guess) where fewer than min_pairs agree, or no more than chance makes
+/// agree (max_chance). `on_map_ratio` is the share
 /// of the first set that found a partner, `misfit` the truncated score of the pose. Two places that look
 /// alike are not told apart: one of them comes out. The second form allocates nothing once its buffers have
 /// grown.

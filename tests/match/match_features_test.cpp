@@ -9,6 +9,7 @@
 
 #include "beaconless/core/rng.hpp"
 #include "beaconless/geometry/rigid_fit.hpp"
+#include "beaconless/match/pairs_by_chance.hpp"
 
 namespace beaconless {
 namespace {
@@ -327,9 +328,53 @@ TEST(CliquePairs, SayWhenTheLimitEndedTheSearch) {
   const Views views = make_views({.common = 12, .extra = 12, .sigma_m = 0.05, .size_m = 4.0}, rng);
   auto config = config_of(FeatureMatchMethod::clique);
   config.clique.node_limit = 20;
+  config.pairing.max_chance = 1e12;
   config.pairing.sigma_m = 0.1;
   EXPECT_EQ(match_features({.points = views.first}, {.points = views.second}, config).result.status,
             MatchStatus::max_iterations);
+}
+
+TEST(PairsByChance, AreRefusedAndRightOnesAreNot) {
+  Rng rng(11);
+  for (const auto method :
+       {FeatureMatchMethod::ransac, FeatureMatchMethod::clique, FeatureMatchMethod::hough}) {
+    int believed = 0;
+    int met = 0;
+    int found = 0;
+    for (int run = 0; run < 60; ++run) {
+      auto config = config_of(method);
+      const Views strangers = make_views({.common = 0, .extra = 15}, rng);
+      believed +=
+          match_features({.points = strangers.first}, {.points = strangers.second}, config).result.usable()
+              ? 1
+              : 0;
+      config.pairing.max_chance = 1e12;
+      met += match_features({.points = strangers.first}, {.points = strangers.second}, config).result.usable()
+                 ? 1
+                 : 0;
+      const Views friends = make_views({.common = 9, .extra = 6, .sigma_m = 0.01}, rng);
+      found += match_features({.points = friends.first}, {.points = friends.second}).result.usable() ? 1 : 0;
+    }
+    EXPECT_LE(believed, 6);  // fewer than max_chance, 1, a match: the bound is wide
+    EXPECT_GE(met, 15);      // chance does find three pairs
+    EXPECT_GE(found, 58);
+  }
+}
+
+TEST(PairsByChance, FallWithEveryPairAndGrowWithTheCandidates) {
+  Rng rng(12);
+  const Views views = make_views({}, rng);
+  const PairingConfig config;
+  const auto chance = [&](std::size_t candidates, std::size_t pairs) {
+    return pairs_by_chance(views.first_set(), views.second_set(), candidates, pairs, config);
+  };
+  // 15 features a side; two pairs are what a pose is made of and say nothing.
+  EXPECT_DOUBLE_EQ(chance(100, 2), 0.5 * 100 * 100);
+  for (std::size_t pairs = 4; pairs <= 15; ++pairs) EXPECT_LT(chance(100, pairs), chance(100, pairs - 1));
+  EXPECT_LT(chance(100, 6), chance(200, 6));
+  EXPECT_GT(pairs_by_chance({.points = views.first}, {.points = views.second}, 100, 6, config),
+            chance(100, 6));
+  EXPECT_EQ(pairs_by_chance({}, {}, 0, 0, config), 0.0);
 }
 
 TEST(HoughPose, KnowsNoLimitsOfPlaceAndHeadingAndKeepsNothing) {
