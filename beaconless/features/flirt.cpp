@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "beaconless/features/flirt_support.hpp"
 #include "beaconless/geometry/angle.hpp"
 
 namespace beaconless {
@@ -89,39 +90,6 @@ void respond_to_bends(FlirtScratch& s) {
   }
 }
 
-/// Which points say what is around a peak: as far as the kernel is wide.
-struct Support {
-  std::size_t begin;
-  std::size_t end;
-};
-
-Support support_of(const FlirtStretch& stretch, std::size_t point, double sigma_beams) {
-  const auto reach = static_cast<std::size_t>(std::max(1.0, std::ceil(sigma_beams)));
-  return {point > stretch.begin + reach ? point - reach : stretch.begin,
-          std::min(point + reach + 1, stretch.end)};
-}
-
-/// The point's nearer neighbour, if that is nearer than itself. Source: Tipaldi and Arras 2010, III-A.
-std::size_t nearer_neighbour(const FlirtContour& contour, const FlirtStretch& stretch, std::size_t i) {
-  const float here = contour.range_m[i];
-  const float before = i > stretch.begin ? contour.range_m[i - 1] : here;
-  const float behind = i + 1 < stretch.end ? contour.range_m[i + 1] : here;
-  if (before < behind) return before < here ? i - 1 : i;
-  return behind < here ? i + 1 : i;
-}
-
-/// The near side of the greatest step within the support; the point itself where there is none.
-std::size_t near_side(const FlirtContour& contour, const Support& support, std::size_t i, double min_step_m) {
-  auto greatest_m = static_cast<float>(min_step_m);
-  for (std::size_t k = support.begin; k + 1 < support.end; ++k) {
-    const float step_m = contour.range_m[k + 1] - contour.range_m[k];
-    if (!(std::abs(step_m) > greatest_m)) continue;
-    greatest_m = std::abs(step_m);
-    i = step_m > 0.0F ? k : k + 1;
-  }
-  return i;
-}
-
 /// Where the keypoint of a peak stands.
 std::size_t place_of(const FlirtConfig& config, const FlirtStretch& stretch, const FlirtPeak& peak,
                      const FlirtScratch& s) {
@@ -132,7 +100,7 @@ std::size_t place_of(const FlirtConfig& config, const FlirtStretch& stretch, con
   // nothing is left behind it; of a blob the lobe behind the step is where the wall there begins.
   const double window_beams = config.kind == FlirtKind::normal_edge ? 0.5 * config.window_beams : 0.0;
   const double reach_beams = 1.5 * s.kernels[peak.scale].sigma + window_beams;
-  const Support support = support_of(stretch, peak.point, reach_beams);
+  const FlirtSupport support = support_of(stretch, peak.point, reach_beams);
   return near_side(s.contour, support, peak.point, config.min_step_m);
 }
 
@@ -149,7 +117,7 @@ Keypoint make_keypoint(const FlirtConfig& config, const FlirtStretch& stretch, c
     keypoint.scale_m = 2.0 * sigma;
     return keypoint;
   }
-  const Support support = support_of(stretch, peak.point, sigma);
+  const FlirtSupport support = support_of(stretch, peak.point, sigma);
   double farthest_m2 = 0.0;
   for (std::size_t i = support.begin; i < support.end; ++i)
     farthest_m2 = std::max(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "beaconless/features/flirt.hpp"
+#include "beaconless/features/flirt_config.hpp"
 
 namespace beaconless {
 
