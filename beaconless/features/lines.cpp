@@ -101,7 +101,11 @@ class LineFinder {
     scratch_.sums.build(points_, config_.sigma_m, config_.weight);
     place_and_merge();
     if (config_.refine_passes > 0) absorb();
-    for (int pass = 0; pass < config_.refine_passes; ++pass) refine();
+    for (int pass = 0; pass < config_.refine_passes; ++pass) {
+      refine();
+      // Beams of the wrong wall may have been all that kept two pieces of one wall apart.
+      if (pass == 0 && config_.is_merged) merge_runs(points_, scratch_.sums, merging(), runs_);
+    }
     fit_all(lines);
   }
 
@@ -125,15 +129,20 @@ class LineFinder {
       const std::size_t first = points_.place_of(piece);
       if (piece.count >= 3) runs_.push_back({first, first + piece.count - 1});
     }
-    MergeConfig merging = config_.merging;
-    merging.sigma_m = config_.sigma_m;
-    if (config_.is_cut_again) cut_again(merging);
-    if (config_.is_merged) merge_runs(points_, scratch_.sums, merging, runs_);
+    if (config_.is_cut_again) cut_again();
+    if (config_.is_merged) merge_runs(points_, scratch_.sums, merging(), runs_);
     std::erase_if(runs_, [this](PlaceRun run) { return hit_count(run) < config_.min_beams; });
   }
 
+  MergeConfig merging() const {
+    MergeConfig merging = config_.merging;
+    merging.sigma_m = config_.sigma_m;
+    return merging;
+  }
+
   /// Bends too small for the split but too large for the noise.
-  void cut_again(const MergeConfig& merging) {
+  void cut_again() {
+    const MergeConfig when = merging();
     std::swap(runs_, scratch_.uncut);
     runs_.clear();
     std::vector<PlaceRun>& todo = scratch_.uncut;
@@ -141,7 +150,7 @@ class LineFinder {
     while (!todo.empty()) {
       const PlaceRun run = todo.back();
       todo.pop_back();
-      const std::size_t cut = best_cut(scratch_.sums, merging, run);
+      const std::size_t cut = best_cut(scratch_.sums, when, run);
       if (cut == run.last) {
         runs_.push_back(run);
       } else {
@@ -152,7 +161,7 @@ class LineFinder {
   }
 
   int hit_count(PlaceRun run) const {
-    return static_cast<int>(scratch_.sums.of(run.first, run.last).count + 0.5);
+    return static_cast<int>(std::lround(scratch_.sums.of(run.first, run.last).count));
   }
 
   /// Short pieces across a corner, which the split leaves where noise hid the vertex: their beams go to the
@@ -187,7 +196,7 @@ class LineFinder {
       const double distance = line.signed_distance_m(points_[at]) / across;
       chi_square += distance * distance;
     }
-    const double n = static_cast<double>(count);
+    const auto n = static_cast<double>(count);
     if (chi_square > n + config_.trim_sigma * std::sqrt(2.0 * n)) return false;
     before.last = std::max(before.last, beyond - 1);
     after.first = std::min(after.first, beyond);
@@ -222,7 +231,7 @@ class LineFinder {
     const double least_cosine = std::sin(radians(config_.least_incidence_deg));
     for (const PlaceRun& run : runs_) {
       const PointMoments sums = scratch_.sums.of(run.first, run.last);
-      if (static_cast<int>(sums.count + 0.5) < config_.min_beams) continue;
+      if (static_cast<int>(std::lround(sums.count)) < config_.min_beams) continue;
       const Eigen::Vector2d first = points_[run.first];
       const Eigen::Vector2d last = points_[run.last];
       if ((last - first).squaredNorm() < config_.min_length_m * config_.min_length_m) continue;

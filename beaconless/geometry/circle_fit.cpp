@@ -54,7 +54,7 @@ Normal linearise(std::span<const Eigen::Vector2d> points, const Circle2& circle)
 
 std::optional<CircleFit> fit_circle(std::span<const Eigen::Vector2d> points, double sigma_m) {
   if (points.size() < 3) return std::nullopt;
-  const double n = static_cast<double>(points.size());
+  const auto n = static_cast<double>(points.size());
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& point : points) centroid += point;
   centroid /= n;

@@ -18,7 +18,7 @@ LineFit line_fit_of(const PrincipalLine& line, const PointMoments& sums, double 
   fit.line = {std::atan2(normal.y(), normal.x()), sign * line.rho_m};
   fit.centroid = line.centroid;
   fit.rms_m = std::sqrt(line.across_square / sums.weight);
-  fit.count = static_cast<std::size_t>(sums.count + 0.5);
+  fit.count = static_cast<std::size_t>(std::lround(sums.count));
   const double variance =
       sigma_m > 0.0 ? sigma_m * sigma_m : line.across_square / std::max(1.0, sums.count - 2.0);
   const double along = normal.x() * fit.centroid.y() - normal.y() * fit.centroid.x();

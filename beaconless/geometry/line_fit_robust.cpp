@@ -112,7 +112,7 @@ std::optional<LineFit> fit_line_ransac(std::span<const Eigen::Vector2d> points, 
 
 std::optional<LineFit> fit_line_theil_sen(std::span<const Eigen::Vector2d> points,
                                           const LineFitConfig& config, LineFitScratch& scratch) {
-  const auto start = fit_line_tls(points);
+  auto start = fit_line_tls(points);
   if (!start) return std::nullopt;
   std::vector<double>& values = scratch.values;
 
