@@ -31,9 +31,10 @@ struct FeaturePair {
 
 /// What makes two features, or two pairs of them, agree.
 struct PairingConfig {
-  double sigma_m = 0.03;                 ///< of a feature's position along each axis, in either set
-  double turn_tolerance_rad = 0.35;      ///< by how much orientations may disagree; pi: any
-  double max_descriptor_distance = 0.4;  ///< pairs that look less alike are not considered; kBscSame, kCghSame …
+  double sigma_m = 0.03;             ///< of a feature's position along each axis, in either set
+  double turn_tolerance_rad = 0.35;  ///< by how much orientations may disagree; pi: any
+  double max_descriptor_distance =
+      0.4;                    ///< pairs that look less alike are not considered; kBscSame, kCghSame …
   double gate_m = 0.0;        ///< pairs further apart at the guess are not; 0: the guess is no gate
   double gate_rad = kPi;      ///< nor those whose orientations differ more from the guess
   int max_candidates = 1000;  ///< the cheapest so many are considered
