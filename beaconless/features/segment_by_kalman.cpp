@@ -80,7 +80,7 @@ class WallFilter {
   double ss_ = 0.0;
 };
 
-/// Where the filter starts: beam 0; on a full circle a beam that the start beam of does not depend on.
+/// Where the filter starts: beam 0; on a full circle a beam that is the same however the sensor is turned.
 std::size_t start_beam(const Scan& scan) {
   if (!scan.is_full_circle()) return 0;
   const auto ranges = scan.ranges_m();

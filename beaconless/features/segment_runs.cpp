@@ -46,7 +46,6 @@ void segments_from_breaks(const Scan& scan, std::span<const std::uint8_t> breaks
     if (count >= min_beams && scan.is_hit(begin)) segments.push_back({begin, count});
     begin = end + 1;
   }
-  // 3. What stood before the first break of an open scan was never skipped: begin was 0.
 }
 
 }  // namespace beaconless
