@@ -83,6 +83,7 @@ TEST(FlirtRange, TheScaleGrowsWithTheBump) {
   double before_m = 0.0;
   for (const double width_beams : {1.5, 3.0, 6.0}) {
     std::vector<float> ranges_m;
+    ranges_m.reserve(401);
     for (int i = 0; i < 401; ++i)
       ranges_m.push_back(
           static_cast<float>(4.0 - 0.2 * std::exp(-0.5 * std::pow((i - 200) / width_beams, 2))));
@@ -142,6 +143,7 @@ TEST(FlirtCurvature, ACornerIsAKeypointThatPointsIntoTheRoom) {
 
 TEST(Flirt, PlainWallsAndCirclesHaveNothing) {
   std::vector<float> wall;
+  wall.reserve(401);
   for (int i = -200; i <= 200; ++i) wall.push_back(static_cast<float>(2.0 / std::cos(i * radians(0.25))));
   RawScan circle{.angle_min_rad = static_cast<float>(-kPi),
                  .angle_increment_rad = static_cast<float>(radians(0.25)),
