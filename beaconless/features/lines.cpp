@@ -5,87 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include "beaconless/features/line_ends.hpp"
 #include "beaconless/geometry/angle.hpp"
 
 namespace beaconless {
 namespace {
-
-constexpr std::size_t kSearch_beams = 12;  // how far the end of a line may be moved in one pass
-constexpr std::size_t kMeeting_beams = 5;  // neighbours with no more than this between them meet
-constexpr std::size_t kShort_beams = 20;   // longer pieces across a corner do not come from noise
-constexpr double kLeastCrossing = 0.1;     // sine of the angle below which a crossing says little
-
-double cross(const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return p.x() * q.y() - p.y() * q.x(); }
-
-/// The cosine of the incidence of a beam on a line, not below what is said of it in line_sums.hpp.
-double cosine_at(const OrderedPoints& points, std::size_t at, const PrincipalLine& line) {
-  return std::clamp(std::abs(line.rho_m) / static_cast<double>(points.ranges_m[at]), 0.1, 1.0);
-}
-
-std::optional<Eigen::Vector2d> crossing_of(const PrincipalLine& p, const PrincipalLine& q) {
-  const double sine = cross(p.normal, q.normal);
-  if (!(std::abs(sine) > kLeastCrossing)) return std::nullopt;
-  return Eigen::Vector2d{(p.rho_m * q.normal.y() - q.rho_m * p.normal.y()) / sine,
-                         (q.rho_m * p.normal.x() - p.rho_m * q.normal.x()) / sine};
-}
-
-/// Two runs that follow each other; the second may be the first one again, a turn further on.
-struct Neighbours {
-  PlaceRun& left;
-  PlaceRun& right;
-  std::size_t turn;  // added to the places of the right one
-
-  bool meet() const { return right.first + turn <= left.last + kMeeting_beams + 1; }
-};
-
-/// The first place beyond the bearing of the crossing, next to where two runs meet; 0 where the crossing is
-/// not there.
-std::size_t first_beyond(const OrderedPoints& points, const Eigen::Vector2d& crossing,
-                         const Neighbours& pair) {
-  const std::size_t start = pair.right.first + pair.turn;
-  const std::size_t low = std::max(pair.left.first + 2, start > kSearch_beams ? start - kSearch_beams : 0);
-  const std::size_t high = std::min({pair.right.last + pair.turn, start + kSearch_beams, points.size()}) - 1;
-  if (low >= high || crossing.dot(points[pair.left.last]) <= 0.0) return 0;
-  std::size_t at = std::clamp(start, low, high);
-  const auto is_beyond = [&](std::size_t i) { return cross(crossing, points[i]) > 0.0; };
-  while (at > low && (!points.is_hit(at - 1) || is_beyond(at - 1))) --at;
-  while (at < high && !is_beyond(at)) ++at;
-  return at > low && at < high ? at : 0;
-}
-
-/// Whether a beam lies on a line, give or take its noise and what is usual on that line.
-bool is_on(const OrderedPoints& points, std::size_t at, const DrawnLine& drawn, const LinesConfig& config) {
-  if (!points.is_hit(at)) return false;
-  const double across = config.sigma_m * cosine_at(points, at, drawn.line);
-  const double most = config.trim_sigma * config.trim_sigma * std::max(across * across, drawn.mean_square_m2);
-  const double distance = drawn.line.signed_distance_m(points[at]);
-  return distance * distance <= most;
-}
-
-/// Parts two runs by the bearing at which their lines cross, as far as the beams lie on the line that they
-/// are given to; where the lines do not cross near by, a beam that both own goes to the nearer one.
-void part(const OrderedPoints& points, const DrawnLine& p, const DrawnLine& q, const LinesConfig& config,
-          Neighbours pair) {
-  if (!pair.meet()) return;
-  std::size_t& last = pair.left.last;
-  std::size_t first = pair.right.first + pair.turn;
-  if (const auto crossing = crossing_of(p.line, q.line)) {
-    if (const std::size_t beyond = first_beyond(points, *crossing, pair); beyond != 0) {
-      if (last >= beyond) last = beyond - 1;
-      if (first < beyond) first = beyond;
-      while (last + 1 < beyond && is_on(points, last + 1, p, config)) ++last;
-      while (first > beyond && is_on(points, first - 1, q, config)) --first;
-      pair.right.first = first - pair.turn;
-      return;
-    }
-  }
-  if (last != first) return;
-  const Eigen::Vector2d shared = points[last];
-  if (std::abs(p.line.signed_distance_m(shared)) <= std::abs(q.line.signed_distance_m(shared)))
-    ++pair.right.first;
-  else
-    --last;
-}
 
 /// Everything a scan's lines are made from.
 class LineFinder {
@@ -100,9 +24,9 @@ class LineFinder {
     points_ = ordered_points(scan_, scratch_.pieces, scratch_.points);
     scratch_.sums.build(points_, config_.sigma_m, config_.weight);
     place_and_merge();
-    if (config_.refine_passes > 0) absorb();
+    if (config_.refine_passes > 0) absorb_short_runs(points_, scratch_.sums, config_, runs_);
     for (int pass = 0; pass < config_.refine_passes; ++pass) {
-      refine();
+      move_ends(points_, scratch_.sums, config_, scratch_.lines, runs_);
       // Beams of the wrong wall may have been all that kept two pieces of one wall apart.
       if (pass == 0 && config_.is_merged) merge_runs(points_, scratch_.sums, merging(), runs_);
     }
@@ -164,69 +88,7 @@ class LineFinder {
     return static_cast<int>(std::lround(scratch_.sums.of(run.first, run.last).count));
   }
 
-  /// Short pieces across a corner, which the split leaves where noise hid the vertex: their beams go to the
-  /// walls on either side where those explain them.
-  void absorb() {
-    std::size_t kept = 1;
-    for (std::size_t i = 1; i + 1 < runs_.size(); ++i)
-      if (!is_absorbed(runs_[kept - 1], runs_[i], runs_[i + 1])) runs_[kept++] = runs_[i];
-    if (runs_.size() < 3) return;
-    runs_[kept++] = runs_.back();
-    runs_.resize(kept);
-  }
-
-  bool is_absorbed(PlaceRun& before, PlaceRun run, PlaceRun& after) const {
-    const std::size_t count = run.last - run.first + 1;
-    if (count > kShort_beams || run.first > before.last + kMeeting_beams + 1 ||
-        after.first > run.last + kMeeting_beams + 1)
-      return false;
-    if (before.last - before.first < count || after.last - after.first < count) return false;
-    const PrincipalLine p = line_of(before);
-    const PrincipalLine q = line_of(after);
-    const auto crossing = crossing_of(p, q);
-    if (!crossing) return false;
-    double chi_square = 0.0;
-    std::size_t beyond = run.last + 1;
-    for (std::size_t at = run.last + 1; at-- > run.first;) {
-      if (!points_.is_hit(at)) continue;
-      const bool is_before = cross(*crossing, points_[at]) <= 0.0;
-      if (!is_before) beyond = at;
-      const PrincipalLine& line = is_before ? p : q;
-      const double across = config_.sigma_m * cosine_at(points_, at, line);
-      const double distance = line.signed_distance_m(points_[at]) / across;
-      chi_square += distance * distance;
-    }
-    const auto n = static_cast<double>(count);
-    if (chi_square > n + config_.trim_sigma * std::sqrt(2.0 * n)) return false;
-    before.last = std::max(before.last, beyond - 1);
-    after.first = std::min(after.first, beyond);
-    return true;
-  }
-
-  PrincipalLine line_of(PlaceRun run) const { return principal_line(scratch_.sums.of(run.first, run.last)); }
-
-  /// 3. Ends to where neighbours cross, then off the beams that lie on neither.
-  void refine() {
-    if (runs_.empty()) return;
-    std::vector<DrawnLine>& drawn = scratch_.lines;
-    drawn.clear();
-    for (const PlaceRun& run : runs_) {
-      const PointMoments sums = scratch_.sums.of(run.first, run.last);
-      const PrincipalLine line = principal_line(sums);
-      drawn.push_back({line, sums.weight > 0.0 ? line.across_square / sums.weight : 0.0});
-    }
-    for (std::size_t i = 0; i + 1 < runs_.size(); ++i)
-      part(points_, drawn[i], drawn[i + 1], config_, {runs_[i], runs_[i + 1], 0});
-    if (points_.is_circle && runs_.size() > 1)
-      part(points_, drawn.back(), drawn.front(), config_, {runs_.back(), runs_.front(), points_.beam_count});
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      PlaceRun& run = runs_[i];
-      while (run.last > run.first + 2 && !is_on(points_, run.last, drawn[i], config_)) --run.last;
-      while (run.last > run.first + 2 && !is_on(points_, run.first, drawn[i], config_)) ++run.first;
-    }
-  }
-
-  /// 4. What is long enough and met well enough.
+  /// 3. What is long enough and met well enough.
   void fit_all(std::vector<ScanLine>& lines) {
     const double least_cosine = std::sin(radians(config_.least_incidence_deg));
     for (const PlaceRun& run : runs_) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -80,6 +81,15 @@ inline PrincipalLine principal_line(const PointMoments& sums) {
   line.along_square = 0.5 * (xx + yy + root);
   if (line.along_square > 0.0) line.across_square = std::fmax(0.0, (xx * yy - xy * xy) / line.along_square);
   return line;
+}
+
+/// Where two lines cross; nothing when the sine of the angle between them is not above `min_sine`.
+inline std::optional<Eigen::Vector2d> crossing_of(const PrincipalLine& p, const PrincipalLine& q,
+                                                  double min_sine) {
+  const double sine = p.normal.x() * q.normal.y() - p.normal.y() * q.normal.x();
+  if (!(std::abs(sine) > min_sine)) return std::nullopt;
+  return Eigen::Vector2d{(p.rho_m * q.normal.y() - q.rho_m * p.normal.y()) / sine,
+                         (q.rho_m * p.normal.x() - p.rho_m * q.normal.x()) / sine};
 }
 
 }  // namespace beaconless
