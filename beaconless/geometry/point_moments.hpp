@@ -84,8 +84,8 @@ inline PrincipalLine principal_line(const PointMoments& sums) {
 }
 
 /// Where two lines cross; nothing when the sine of the angle between them is not above `min_sine`.
-inline std::optional<Eigen::Vector2d> crossing_of(const PrincipalLine& p, const PrincipalLine& q,
-                                                  double min_sine) {
+inline std::optional<Eigen::Vector2d> crossing(const PrincipalLine& p, const PrincipalLine& q,
+                                               double min_sine) {
   const double sine = p.normal.x() * q.normal.y() - p.normal.y() * q.normal.x();
   if (!(std::abs(sine) > min_sine)) return std::nullopt;
   return Eigen::Vector2d{(p.rho_m * q.normal.y() - q.rho_m * p.normal.y()) / sine,
