@@ -1,98 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/features/corner_refinement.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "beaconless/geometry/point_moments.hpp"
 
 namespace beaconless {
 namespace {
 
-/// Sums of points, from which the line through them follows at any time.
-struct Moments {
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< near the points, or digits are lost
-  double n = 0.0;
-  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-
-  void add(const Eigen::Vector2d& point) {
-    const Eigen::Vector2d p = point - origin;
-    n += 1.0;
-    x += p.x();
-    y += p.y();
-    xx += p.x() * p.x();
-    xy += p.x() * p.y();
-    yy += p.y() * p.y();
-  }
-};
-
-/// A line as a point on it and its unit normal.
-struct PointNormal {
-  Eigen::Vector2d point;
-  Eigen::Vector2d normal;
-  double distance_m(const Eigen::Vector2d& to) const { return std::abs(normal.dot(to - point)); }
-};
-
-/// Total least squares without trigonometry: the normal is the eigenvector of the lesser moment.
-PointNormal line_of(const Moments& of) {
-  const double sxx = of.xx - of.x * of.x / of.n;
-  const double syy = of.yy - of.y * of.y / of.n;
-  const double sxy = of.xy - of.x * of.y / of.n;
-  const double half = 0.5 * (syy - sxx);
-  const double root = std::sqrt(half * half + sxy * sxy);
-  // of the two rows of (S - lesser eigenvalue), the longer one points along the line
-  const Eigen::Vector2d along =
-      half > 0.0 ? Eigen::Vector2d(sxy, half + root) : Eigen::Vector2d(root - half, sxy);
-  const Eigen::Vector2d unit = along.squaredNorm() > 0.0 ? along.normalized() : Eigen::Vector2d(1, 0);
-  return {of.origin + Eigen::Vector2d(of.x, of.y) / of.n, {-unit.y(), unit.x()}};
-}
-
 /// The unit vector along a line that leads from a corner on it to the points it was made of.
-Eigen::Vector2d arm_of(const PointNormal& line, const Eigen::Vector2d& corner) {
-  const Eigen::Vector2d along(-line.normal.y(), line.normal.x());
-  return along.dot(line.point - corner) < 0.0 ? Eigen::Vector2d(-along) : along;
+Eigen::Vector2d arm_of(const PrincipalLine& line, const Eigen::Vector2d& corner) {
+  const Eigen::Vector2d along = line.along();
+  return along.dot(line.centroid - corner) < 0.0 ? Eigen::Vector2d(-along) : along;
 }
 
-std::optional<RefinedCorner> crossing(const PointNormal& p, const PointNormal& q) {
+std::optional<RefinedCorner> corner_of(const PrincipalLine& p, const PrincipalLine& q) {
   constexpr double kLeastSine = 0.26;  // 15 degrees
-  const double sine = p.normal.x() * q.normal.y() - p.normal.y() * q.normal.x();
-  if (!(std::abs(sine) >= kLeastSine)) return std::nullopt;
-  const double a = p.normal.dot(p.point);
-  const double b = q.normal.dot(q.point);
-  const Eigen::Vector2d corner{(a * q.normal.y() - b * p.normal.y()) / sine,
-                               (b * p.normal.x() - a * q.normal.x()) / sine};
-  return RefinedCorner{corner, (arm_of(p, corner) + arm_of(q, corner)).normalized()};
+  const auto corner = crossing(p, q, kLeastSine);
+  if (!corner) return std::nullopt;
+  return RefinedCorner{*corner, (arm_of(p, *corner) + arm_of(q, *corner)).normalized()};
 }
 
-PointNormal line_through(const UnrolledScan& points, std::size_t first, std::size_t last) {
-  Moments sums{.origin = points.point(first)};
-  for (std::size_t place = first; place <= last; ++place) sums.add(points.point(place));
-  return line_of(sums);
+PrincipalLine line_through(const UnrolledScan& points, std::size_t first, std::size_t last) {
+  PointMoments sums;
+  for (std::size_t place = first; place <= last; ++place)
+    sums.add(static_cast<double>(points.x_m[place]), static_cast<double>(points.y_m[place]));
+  return principal_line(sums);
 }
 
 /// Walks from the corner outwards (`step` +1 or -1) as long as points follow their line; gives that line.
 /// The first `sure` points are taken as they are.
-std::optional<PointNormal> grown_line(const UnrolledScan& points, const Eigen::Vector2d& corner,
-                                      std::size_t start, std::size_t run_end, bool forward, std::size_t sure,
-                                      const ArmLimits& limits) {
-  Moments sums{.origin = corner};
-  PointNormal line{corner, {0, 0}};
+std::optional<PrincipalLine> grown_line(const UnrolledScan& points, const Eigen::Vector2d& corner,
+                                        std::size_t start, std::size_t run_end, bool forward,
+                                        std::size_t sure, const ArmLimits& limits) {
+  PointMoments sums;
+  PrincipalLine line;
   int outside = 0;
   std::size_t counted = 0;
   for (std::size_t place = start;; forward ? ++place : --place) {
     const Eigen::Vector2d point = points.point(place);
     if ((point - corner).squaredNorm() > limits.length_m * limits.length_m && counted >= sure) break;
     if (counted >= sure) {
-      if (counted % 4 == sure % 4) line = line_of(sums);  // the line settles soon: no need to ask each time
-      const bool off = line.distance_m(point) > limits.tolerance_m;
+      if (counted % 4 == sure % 4)
+        line = principal_line(sums);  // the line settles soon: no need to ask each time
+      const bool off = std::abs(line.signed_distance_m(point)) > limits.tolerance_m;
       outside = off ? outside + 1 : 0;
       if (outside == 2) break;
-      if (!off) sums.add(point);
+      if (!off) sums.add(point.x(), point.y());
     } else {
-      sums.add(point);
+      sums.add(point.x(), point.y());
     }
     ++counted;
     if (place == run_end) break;
   }
-  if (sums.n < 2.0) return std::nullopt;
-  return line_of(sums);
+  if (sums.count < 2.0) return std::nullopt;
+  return principal_line(sums);
 }
 
 /// The place whose bearing is nearest to that of a point, among first … last.
@@ -114,8 +77,8 @@ std::size_t place_towards(const UnrolledScan& points, const Eigen::Vector2d& to,
 
 std::optional<RefinedCorner> meeting_point(const UnrolledScan& points, const CornerSides& sides) {
   if (sides.left_last <= sides.left_first || sides.right_last <= sides.right_first) return std::nullopt;
-  return crossing(line_through(points, sides.left_first, sides.left_last),
-                  line_through(points, sides.right_first, sides.right_last));
+  return corner_of(line_through(points, sides.left_first, sides.left_last),
+                   line_through(points, sides.right_first, sides.right_last));
 }
 
 std::optional<RefinedCorner> refine_corner(const UnrolledScan& points, CornerSides sides, std::size_t centre,
@@ -132,7 +95,7 @@ std::optional<RefinedCorner> refine_corner(const UnrolledScan& points, CornerSid
   const auto right =
       grown_line(points, corner->point, split, points.run_last[centre], true, sure_right, limits);
   // 3. and let them meet again
-  const auto better = left && right ? crossing(*left, *right) : std::nullopt;
+  const auto better = left && right ? corner_of(*left, *right) : std::nullopt;
   return better ? better : corner;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/report/scan_view.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -17,6 +18,7 @@ constexpr std::array<Colour, 5> kTurns{Colour::blue, Colour::orange, Colour::gre
                                        Colour::sky};
 constexpr double kArrow_px = 16.0;
 constexpr double kTick_px = 4.0;
+constexpr double kLargestScale_m = 1.0;  // the support of a step between two rooms would cover both
 constexpr double kLeastEllipse_px = 1.5;
 
 /// The sensor, all hits and all corners, with a little room around them.
@@ -114,8 +116,10 @@ void draw_corners(Picture& picture, const WorldView& view, const ScanLayers& lay
     else
       picture.svg.circle(at, 4.5, with("marker", Colour::red));
   }
-  picture.legend.push_back({counted(layers.corners.size(), "corner") + ", concave", Mark::ring, Colour::red});
-  picture.legend.push_back({"convex (the edge of something)", Mark::square, Colour::red});
+  const auto convex = static_cast<std::size_t>(std::ranges::count_if(layers.corners, &Corner::is_convex));
+  picture.legend.push_back(
+      {counted(layers.corners.size() - convex, "concave corner"), Mark::ring, Colour::red});
+  picture.legend.push_back({counted(convex, "convex corner"), Mark::square, Colour::red});
   if (ellipses)
     picture.legend.push_back(
         {significant(sigma_count, 2) + " sigma of a corner", Mark::outline, Colour::red});
@@ -124,14 +128,14 @@ void draw_corners(Picture& picture, const WorldView& view, const ScanLayers& lay
 void draw_keypoints(Picture& picture, const WorldView& view, const KeypointLayer& layer) {
   for (const Keypoint& keypoint : layer.keypoints) {
     const Eigen::Vector2d at = view(keypoint.point);
-    if (keypoint.scale_m > 0.0)
+    if (keypoint.scale_m > 0.0 && keypoint.scale_m <= kLargestScale_m)
       picture.svg.circle(at, keypoint.scale_m * view.px_per_m, with("outline", layer.colour));
     draw_direction(picture.svg, at, keypoint.orientation_rad, layer.colour);
     picture.svg.circle(at, 3.5, with("marker", layer.colour));
   }
-  picture.legend.push_back(
-      {layer.name + ": " + counted(layer.keypoints.size(), "keypoint") + ", with orientation and scale",
-       Mark::ring, layer.colour});
+  picture.legend.push_back({layer.name + ": " + counted(layer.keypoints.size(), "keypoint") +
+                                ", with orientation and (up to 1 m) scale",
+                            Mark::ring, layer.colour});
 }
 
 }  // namespace
