@@ -26,7 +26,7 @@ constexpr std::string_view to_string(MatchStatus status) {
     case MatchStatus::max_iterations:
       return "still moving after the last iteration";
     case MatchStatus::too_few_pairs:
-      return "too few beams near a wall";
+      return "too few pairs";
   }
   return "unknown";
 }
