@@ -17,6 +17,11 @@ struct Reach {
   Ints4 after{};
 };
 
+/// `offset` where that place is near, else offset - 1 where that one is, else 0.
+Ints4 farther(const Ints4& at_offset, const Ints4& before_it, std::int32_t offset) {
+  return (at_offset & offset) | (~at_offset & before_it & (offset - 1));
+}
+
 /// All four at once, from the rim of the widest window inwards until each has one on both sides.
 Reach farthest(const float* x, const float* y, const Floats4& radius_squared, std::int32_t window) {
   const Floats4 here_x = load4(x);
@@ -27,12 +32,13 @@ Reach farthest(const float* x, const float* y, const Floats4& radius_squared, st
     return dx * dx + dy * dy <= radius_squared;
   };
   Reach far;
-  for (std::int32_t offset = window; offset > 0; --offset) {
+  // two steps at a time: the question whether to go on costs as much as a step
+  for (std::int32_t offset = window; offset > 0; offset -= 2) {
     const Ints4 open_before = far.before == 0;
     const Ints4 open_after = far.after == 0;
     if (!any(open_before | open_after)) break;
-    far.before |= near(-offset) & open_before & offset;
-    far.after |= near(offset) & open_after & offset;
+    far.before |= open_before & farther(near(-offset), near(1 - offset), offset);
+    far.after |= open_after & farther(near(offset), near(offset - 1), offset);
   }
   return far;
 }
@@ -46,13 +52,14 @@ void BeamNeighbourhoods::assign(const Scan& scan, const KeypointRadius& radius) 
   window.resize(points.size());
   radius_m.resize(points.size());
 
-  // 1. radius and window of each; without a hit there is no window
-  for (std::size_t beam = 0; beam < scan.size(); ++beam)
-    radius_m[points.begin() + beam] = scan.is_hit(beam) ? radius.at(scan.ranges_m()[beam]) : 0.0F;
+  // 1. radius and window of each; without a hit both are nothing
   const float* const ranges = scan.ranges_m().data();
-  const float* const radii = radius_m.data() + points.begin();
+  float* const radii = radius_m.data() + points.begin();
+  std::size_t beam = 0;
+  for (; beam + kBlock <= scan.size(); beam += kBlock) store4(radius.at(load4(ranges + beam)), radii + beam);
+  for (; beam < scan.size(); ++beam) radii[beam] = radius.at(ranges[beam]);
   std::int32_t* const windows = window.data() + points.begin();
-  for (std::size_t beam = 0; beam < scan.size(); ++beam)
+  for (beam = 0; beam < scan.size(); ++beam)
     windows[beam] = beams_within(radii[beam], std::max(ranges[beam], 1e-9F), beams_per_rad);
   // 2. what they reach
   for (std::size_t begin = points.begin(); begin < points.end(); begin += kBlock)
@@ -72,12 +79,18 @@ void BeamNeighbourhoods::assign_block(std::size_t begin, std::size_t count) {
   const float* const x = points.x_m.data() + begin;
   const float* const y = points.y_m.data() + begin;
   const Reach far = farthest(x, y, radius_squared, widest);
+  const auto place = static_cast<std::int32_t>(begin);
+  const Ints4 places = {place, place + 1, place + 2, place + 3};
+  store4(places - far.before, first.data() + begin);
+  store4(places + far.after, last.data() + begin);
   // 2. but not beyond a gap
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const std::size_t place = begin + lane;
-    first[place] = static_cast<std::uint32_t>(place) - static_cast<std::uint32_t>(far.before[lane]);
-    last[place] = static_cast<std::uint32_t>(place) + static_cast<std::uint32_t>(far.after[lane]);
-    if (first[place] >= points.run_first[place] && last[place] <= points.run_last[place]) continue;
+  const Ints4 over = (places - far.before < load4(points.run_first.data() + begin)) |
+                     (places + far.after > load4(points.run_last.data() + begin));
+  if (any(over)) cut_at_gaps(begin, count);
+}
+
+void BeamNeighbourhoods::cut_at_gaps(std::size_t begin, std::size_t count) {
+  for (std::size_t place = begin; place < begin + count; ++place) {
     if (!points.is_hit(place)) continue;
     for (first[place] = std::max(first[place], points.run_first[place]); !has(place, first[place]);)
       ++first[place];

@@ -35,6 +35,7 @@ class BeamNeighbourhoods {
 
  private:
   void assign_block(std::size_t begin, std::size_t count);
+  void cut_at_gaps(std::size_t begin, std::size_t count);
 };
 
 }  // namespace beaconless

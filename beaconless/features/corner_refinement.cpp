@@ -38,12 +38,15 @@ std::optional<PrincipalLine> grown_line(const UnrolledScan& points, const Eigen:
   PrincipalLine line;
   int outside = 0;
   std::size_t counted = 0;
+  std::size_t settles = sure;  // the line is asked anew when it has half as many points again
   for (std::size_t place = start;; forward ? ++place : --place) {
     const Eigen::Vector2d point = points.point(place);
-    if ((point - corner).squaredNorm() > limits.length_m * limits.length_m && counted >= sure) break;
     if (counted >= sure) {
-      if (counted % 4 == sure % 4)
-        line = principal_line(sums);  // the line settles soon: no need to ask each time
+      if ((point - corner).squaredNorm() > limits.length_m * limits.length_m) break;
+      if (counted == settles) {
+        line = principal_line(sums);
+        settles += settles / 2 + 1;
+      }
       const bool off = std::abs(line.signed_distance_m(point)) > limits.tolerance_m;
       outside = off ? outside + 1 : 0;
       if (outside == 2) break;

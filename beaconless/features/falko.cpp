@@ -2,7 +2,6 @@
 #include "beaconless/features/falko.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -27,31 +26,25 @@ void collect(const BeamNeighbourhoods& around, std::size_t centre, std::size_t f
 }
 
 /// How much the directions of one side differ: the sector distances of all its pairs.
-int disorder(const FalkoSide& side, const Eigen::Vector2f& axis, FalkoScratch& scratch) {
-  // 1. how many point into which sector, seen from the axis
-  std::uint64_t occupied = 0;
+int disorder(FalkoSide& side, const Eigen::Vector2f& axis, const AngleSectors& sectors) {
+  // 1. which sector each points into, seen from the axis
   for (std::size_t at = 0; at < side.count; at += 4) {
     const Floats4 x = load4(side.x.data() + at);
     const Floats4 y = load4(side.y.data() + at);
-    const Ints4 sectors = scratch.sectors.of(axis.x() * x + axis.y() * y, axis.x() * y - axis.y() * x);
-    for (std::size_t lane = 0; lane < std::min<std::size_t>(4, side.count - at); ++lane) {
-      const auto sector = static_cast<std::size_t>(sectors[lane]);
-      const std::uint64_t bit = std::uint64_t{1} << sector;
-      scratch.counts[sector] = (occupied & bit) != 0 ? scratch.counts[sector] + 1 : 1;
-      occupied |= bit;
-    }
+    store4(sectors.of(axis.x() * x + axis.y() * y, axis.x() * y - axis.y() * x), side.sector.data() + at);
   }
-  // 2. pairs of one sector differ by nothing
-  int sum = 0;
-  for (; occupied != 0; occupied &= occupied - 1) {
-    const int u = std::countr_zero(occupied);
-    for (std::uint64_t others = occupied & (occupied - 1); others != 0; others &= others - 1) {
-      const int v = std::countr_zero(others);
-      sum += scratch.counts[static_cast<std::size_t>(u)] * scratch.counts[static_cast<std::size_t>(v)] *
-             sector_distance(u, v, scratch.sectors.count());
+  // 2. how far four of them at a time are from each, which counts every pair twice
+  const auto turn = static_cast<float>(sectors.count());
+  Floats4 twice{};
+  for (std::size_t at = 0; at < side.count; at += 4) {
+    Floats4 from_all{};
+    for (std::size_t other = 0; other < side.count; ++other) {
+      const Floats4 way = abs4(load4(side.sector.data() + at) - side.sector[other]);
+      from_all += way < turn - way ? way : turn - way;
     }
+    twice += where(Ints4{0, 1, 2, 3} < static_cast<std::int32_t>(side.count - at), from_all);
   }
-  return sum;
+  return static_cast<int>(sum(twice)) / 2;
 }
 
 /// Scores a beam whose neighbourhood is a triangle; nothing when a side has too few points.
@@ -65,7 +58,8 @@ void score(const FalkoConfig& config, const Eigen::Matrix2f& to_axis, std::size_
   if (scratch.left.count < min_points || scratch.right.count < min_points) return;
   const Eigen::Vector2f bisector = scratch.left.mean() + scratch.right.mean();
   const Eigen::Vector2f axis = to_axis * bisector;
-  scratch.raw[beam] = disorder(scratch.left, axis, scratch) + disorder(scratch.right, axis, scratch);
+  scratch.raw[beam] =
+      disorder(scratch.left, axis, scratch.sectors) + disorder(scratch.right, axis, scratch.sectors);
   scratch.bisectors[beam] = bisector;
   keypoints.push_back(
       {beam, around.points.point(centre), 0.0, static_cast<double>(around.radius_m[centre]), 0.0});
@@ -96,7 +90,8 @@ void detect_falko(const Scan& scan, const FalkoConfig& config, FalkoScratch& scr
   scratch.raw.assign(scan.size(), FalkoScratch::kUntested);
   scratch.bisectors.resize(scan.size());
   const std::size_t most = around.points.size() + 4;
-  for (auto* of : {&scratch.left.x, &scratch.left.y, &scratch.right.x, &scratch.right.y}) of->resize(most);
+  scratch.left.make_room(most);
+  scratch.right.make_room(most);
   keypoints.clear();
 
   // 1. the disorder of every neighbourhood that is a triangle

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,7 @@ struct FalkoConfig {
   double range_max_m = 30.0;
   KeypointRadius radius{.at_zero_m = 0.25, .growth_per_m = 0.07};
   int min_points = 2;
-  int max_points = 10;
+  int max_points = 8;
   double base_ratio = 2.0;
   int sectors = 16;
   bool centred_sectors = true;
@@ -50,9 +49,13 @@ Result<FalkoConfig> falko_preset(std::string_view name);
 struct FalkoSide {
   std::vector<float> x;  ///< longer than `count` by what a vector load may run over
   std::vector<float> y;
+  std::vector<float> sector;
   std::size_t count = 0;
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
 
+  void make_room(std::size_t most) {
+    for (auto* of : {&x, &y, &sector}) of->resize(most);
+  }
   void clear() {
     count = 0;
     sum.setZero();
@@ -77,7 +80,6 @@ struct FalkoScratch {
   std::vector<Keypoint> candidates;
   FalkoSide left;
   FalkoSide right;
-  std::array<int, 64> counts{};
 };
 
 /// Finds corner-like points: both sides of the neighbourhood are straight, and they make a triangle with it.
@@ -89,11 +91,12 @@ struct FalkoScratch {
 /// Source: Kallasi, Lodi Rizzini and Caselli, "Fast Keypoint Features from Laser Scanner for Robot
 /// Localization and Mapping", RA-L 2016, section III; dissertation Algorithm 7. Differs: (1) the orientation
 /// is returned (the public getCornerOrientation ends without a return statement); (2) sectors are
-/// compared around the circle (see sector_distance) and centred on the bisector, since the arms of a right
-/// angle lie exactly on the limits of uncentred ones; (3) the sum over pairs is taken over the histograms of
-/// the sectors; (4) equal scores are one plateau only within the suppression radius; (5) the window is
-/// symmetric and ends with the scan, or goes round with a full circle; an invalid beam ends it; (6) the
-/// refinement leaves the corner's own beam out.
+/// compared around the circle (see AngleSectors) and centred on the bisector, since the arms of a right
+/// angle lie exactly on the limits of uncentred ones; (3) of many neighbours only
+/// some, evenly taken, are looked at, so that near corners do not score worse than far ones; (4) equal scores
+/// are one plateau only within the suppression radius; (5) the window is symmetric and ends with the scan, or
+/// goes round with a full circle; an invalid beam ends it; (6) the refinement leaves the corner's own beam
+/// out.
 std::vector<Keypoint> detect_falko(const Scan& scan, const FalkoConfig& config = {});
 void detect_falko(const Scan& scan, const FalkoConfig& config, FalkoScratch& scratch,
                   std::vector<Keypoint>& keypoints);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "beaconless/core/describe.hpp"
+#include "beaconless/features/four_floats.hpp"
 
 namespace beaconless {
 
@@ -18,10 +19,17 @@ struct KeypointRadius {
   double at_zero_m = 0.1;      ///< a
   double growth_per_m = 0.07;  ///< b
 
-  float at(float range_m) const {
-    const float radius = static_cast<float>(at_zero_m) * std::exp(static_cast<float>(growth_per_m) * range_m);
-    return radius < range_m ? radius : 0.8F * range_m;
+  /// For four ranges at once, each not above 1000 m; 0 for 0.
+  Floats4 at(const Floats4& range_m) const {
+    constexpr float kMostExponent = 80.0F;
+    const Floats4 exponent = static_cast<float>(growth_per_m) * range_m;
+    const Floats4 radius =
+        static_cast<float>(at_zero_m) * exp4(where(exponent < kMostExponent, exponent) +
+                                             where(exponent >= kMostExponent, Floats4{} + kMostExponent));
+    const Ints4 fits = radius < range_m;
+    return where(fits, radius) + where(~fits, 0.8F * range_m);
   }
+  float at(float range_m) const { return at(Floats4{} + range_m)[0]; }
 
   friend bool operator==(const KeypointRadius&, const KeypointRadius&) = default;
 };

@@ -28,19 +28,22 @@ void UnrolledScan::assign(const Scan& scan, std::size_t pad) {
   lay_out(scan.x_m(), x_m);
   lay_out(scan.y_m(), y_m);
 
-  // 2. runs: from the left each place learns where its run began, from the right where it ends
-  const auto last_place = static_cast<std::uint32_t>(places - 1);
-  const auto hits = [&](std::size_t place) { return x_m[place] != 0.0F || y_m[place] != 0.0F; };
-  std::uint32_t first = 0;
-  for (std::uint32_t place = 0; place <= last_place; ++place) {
-    if (!hits(place)) first = place + 1;
-    run_first[place] = first;
-  }
-  std::uint32_t last = last_place;
-  for (std::uint32_t place = last_place;; --place) {
-    if (!hits(place)) last = place - 1;
-    run_last[place] = last;
-    if (place == 0) break;
+  // 2. runs of hits, and the empty ones of places without a hit
+  const auto hits = [this](std::size_t place) { return x_m[place] != 0.0F || y_m[place] != 0.0F; };
+  for (std::size_t first = 0; first < places;) {
+    if (!hits(first)) {
+      run_first[first] = static_cast<std::uint32_t>(first + 1);
+      run_last[first] = static_cast<std::uint32_t>(first) - 1;
+      ++first;
+      continue;
+    }
+    std::size_t after = first + 1;
+    while (after < places && hits(after)) ++after;
+    const auto length = static_cast<std::ptrdiff_t>(after - first);
+    const auto from = static_cast<std::ptrdiff_t>(first);
+    std::fill_n(run_first.begin() + from, length, static_cast<std::uint32_t>(first));
+    std::fill_n(run_last.begin() + from, length, static_cast<std::uint32_t>(after - 1));
+    first = after;
   }
 }
 
