@@ -69,7 +69,7 @@ void time_scans(benchmark::State& state, const Case& run, const Describe& descri
       });
     }
   latencies.report(state);
-  state.counters["keypoints"] = run.keypoints_per_scan();
+  state.counters["per_scan"] = run.keypoints_per_scan();
   state.counters["p50_us_each"] = state.counters["p50_us"] / run.keypoints_per_scan();
 }
 

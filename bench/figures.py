@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the figures of the last `./run bench` into docs/benchmarks.md, between its two marks.
+"""Puts the figures of the last `./run bench` into docs/benchmarks.md and docs/performance.md, between their two marks.
+The first mark of a page names the programs whose figures it wants.
 
-usage: bench/figures.py [DIRECTORY OF JSON FILES] [MARKDOWN FILE]
+usage: bench/figures.py [DIRECTORY OF JSON FILES] [MARKDOWN FILE …]
 """
 import json
 import math
@@ -11,9 +12,10 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
+BEGIN = re.compile(r"<!-- figures: begin( \w+)+ -->\n")
+END = "<!-- figures: end -->"
+PAGES = [ROOT / "docs/benchmarks.md", ROOT / "docs/performance.md"]
 NANOSECONDS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
-PROGRAMS = ["calibrate_bench", "localize_bench", "match_bench", "ray_cast_bench", "map_bench", "read_bench"]
 
 
 def three_digits(value):
@@ -54,6 +56,8 @@ COLUMNS = [
     ("p99", lambda row, _: duration(row["p99_us"] * 1e3) if "p99_us" in row else None),
     ("max", lambda row, _: duration(row["max_us"] * 1e3) if "max_us" in row else None),
     ("calibration loops", lambda row, loop_ns: three_digits(typical_ns(row) / loop_ns)),
+    ("p50 of each", lambda row, _: duration(row["p50_us_each"] * 1e3) if "p50_us_each" in row else None),
+    ("found a scan", lambda row, _: three_digits(row["per_scan"]) if "per_scan" in row else None),
     ("a second", lambda row, _: three_digits(row["items_per_second"]) if "items_per_second" in row else None),
     ("MB/s", lambda row, _: three_digits(row["bytes_per_second"] / 1e6) if "bytes_per_second" in row else None),
     ("walls", lambda row, _: f"{row['walls']:.0f}" if "walls" in row else None),
@@ -83,9 +87,9 @@ def machine(context):
     yield f"* Date: {context['date'][:10]}; load average at the start {context['load_avg'][0]:.1f}"
 
 
-def figures(directory):
+def figures(directory, programs):
     reports = {}
-    for program in PROGRAMS:
+    for program in programs:
         try:
             reports[program] = json.loads((directory / f"{program}.json").read_text(encoding="utf-8"))
         except (OSError, json.JSONDecodeError) as error:
@@ -102,13 +106,16 @@ def figures(directory):
 
 def main():
     directory = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build-bench/bench/figures"
-    page = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT / "docs/benchmarks.md"
-    before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
-    _, mark, after = rest.partition(END)
-    if not mark:
-        sys.exit(f"figures.py: {page} lacks the lines {BEGIN} and {END}")
-    page.write_text(f"{before}{BEGIN}\n" + "\n".join(figures(directory)) + f"\n{END}{after}", encoding="utf-8")
-    print(f"figures.py: wrote {page}")
+    for page in [Path(name) for name in sys.argv[2:]] or PAGES:
+        text = page.read_text(encoding="utf-8")
+        begin = BEGIN.search(text)
+        end = text.find(END)
+        if not begin or end < begin.end():
+            sys.exit(f"figures.py: {page} lacks the lines <!-- figures: begin PROGRAMS --> and {END}")
+        programs = begin[0].split()[3:-1]
+        written = "\n".join(figures(directory, programs))
+        page.write_text(f"{text[:begin.end()]}{written}\n{text[end:]}", encoding="utf-8")
+        print(f"figures.py: wrote {page}")
 
 
 if __name__ == "__main__":

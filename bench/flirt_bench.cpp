@@ -31,7 +31,7 @@ void detect(benchmark::State& state, const std::shared_ptr<const Drive>& drive, 
     }
   }
   latencies.report(state);
-  state.counters["keypoints"] = static_cast<double>(found) / static_cast<double>(scans);
+  state.counters["per_scan"] = static_cast<double>(found) / static_cast<double>(scans);
 }
 
 void add(const std::shared_ptr<const Drive>& drive) {
