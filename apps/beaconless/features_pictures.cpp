@@ -69,7 +69,7 @@ std::string features_picture(const Scan& scan, std::span<const Detector> wanted,
       layers = corner_layers(scan, config.corners);
     else
       layers.keypoints.push_back({detector, detect(scan, wanted[d], config), kColours[d % kColours.size()]});
-    pictures.push_back({name + ": " + detector, report::draw_scan(scan, layers)});
+    pictures.push_back({fmt::format("{}: {}", name, detector), report::draw_scan(scan, layers)});
   }
   return report::svg_sheet(pictures);
 }

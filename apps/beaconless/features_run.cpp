@@ -131,7 +131,7 @@ Result<std::vector<eval::Repeatability>> repeatabilities(const FeaturesWords& wo
 
 void say(const Console& console, const FeaturesWords& words, const Harvest& harvest,
          const std::vector<eval::Repeatability>& again) {
-  const double scans = static_cast<double>(harvest.scan_indices.size());
+  const auto scans = static_cast<double>(harvest.scan_indices.size());
   console.say(fmt::format("{} scans", harvest.scan_indices.size()));
   if (again.empty())
     console.say(fmt::format("{:<16} {:>10}", "detector", "per scan"));
