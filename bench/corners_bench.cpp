@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // From beams to corners, step by step, scan by scan over whole drives, and how well corners are found again.
-#include <iostream>
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -10,29 +9,14 @@
 #include "beaconless/features/corners.hpp"
 #include "beaconless/features/segment_by_kalman.hpp"
 
-#include "bench/drives.hpp"
 #include "bench/latencies.hpp"
+#include "bench/whole_drives.hpp"
 
 namespace {
 
 using namespace beaconless;
-using bench::Drive;
-using SharedDrive = std::shared_ptr<const Drive>;
-
-/// Times `find(scan)`, which gives how many it found.
-template <class Find>
-void each_scan(benchmark::State& state, const Drive& drive, Find&& find) {
-  bench::Latencies latencies;
-  double found = 0.0;
-  double scans = 0.0;
-  for (auto _ : state)
-    for (std::size_t i = 0; i < drive.scans.size(); ++i) {
-      found += static_cast<double>(latencies.measure([&] { return find(drive.scan(i)); }));
-      scans += 1.0;
-    }
-  latencies.report(state);
-  state.counters["per_scan"] = found / scans;
-}
+using bench::each_scan;
+using bench::SharedDrive;
 
 void segments_by_distance(benchmark::State& state, const SharedDrive& drive) {
   DistanceSegmentationScratch scratch;
@@ -104,14 +88,7 @@ void corners(benchmark::State& state, const SharedDrive& drive, const CornersCon
 }
 
 void add_all() {
-  std::vector<SharedDrive> drives = {std::make_shared<const Drive>(bench::simulated_drive("room-ellipse"))};
-  for (const auto& [name, plan] : {std::pair{"sim_rooms/a1_static", "sim_rooms/a_room4x3.plan.yaml"},
-                                   std::pair{"sim_rooms/b1_ellipse", "sim_rooms/b_room12x8.plan.yaml"}}) {
-    if (auto drive = bench::recorded_drive(name, plan))
-      drives.push_back(std::make_shared<const Drive>(std::move(*drive)));
-    else
-      std::cerr << "corners_bench: no " << name << " below BEACONLESS_DATA: left out\n";
-  }
+  const std::vector<SharedDrive> drives = bench::whole_drives();
   const auto add = [](const std::string& name, auto&& run) {
     benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
   };
@@ -139,14 +116,4 @@ void add_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  try {
-    add_all();
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const std::exception& error) {
-    std::cerr << "corners_bench: " << error.what() << "\n";
-    return 3;
-  }
-}
+int main(int argc, char** argv) { return beaconless::bench::run_benchmarks(argc, argv, add_all); }

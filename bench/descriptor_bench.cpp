@@ -2,7 +2,6 @@
 // The descriptors of a scan's keypoints and the regions around them, scan by scan over whole drives. The
 // keypoints are the corners of the floor plan that the laser sees, so that the figures do not hang on a
 // detector.
-#include <iostream>
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -13,8 +12,8 @@
 #include "beaconless/features/interest_regions.hpp"
 #include "beaconless/features/shape_context.hpp"
 
-#include "bench/drives.hpp"
 #include "bench/latencies.hpp"
+#include "bench/whole_drives.hpp"
 
 namespace {
 
@@ -86,15 +85,8 @@ void time_one(benchmark::State& state, const Case& run) {
 
 void add_all() {
   std::vector<std::shared_ptr<const Case>> cases;
-  cases.push_back(std::make_shared<const Case>(case_of(bench::simulated_drive("room-ellipse"))));
-  for (const auto& [name, building] : {std::pair{"sim_rooms/a1_static", "sim_rooms/a_room4x3"},
-                                       std::pair{"sim_rooms/b1_ellipse", "sim_rooms/b_room12x8"}}) {
-    const auto drive = bench::recorded_drive(name, std::string(building) + ".plan.yaml");
-    if (drive)
-      cases.push_back(std::make_shared<const Case>(case_of(*drive)));
-    else
-      std::cerr << "descriptor_bench: no " << name << " below BEACONLESS_DATA: left out\n";
-  }
+  for (const bench::SharedDrive& drive : bench::whole_drives())
+    cases.push_back(std::make_shared<const Case>(case_of(*drive)));
   const auto add = [&](const char* what, void (*benchmark)(benchmark::State&, const Case&)) {
     for (const auto& run : cases)
       benchmark::RegisterBenchmark((std::string(what) + "/" + run->name).c_str(),
@@ -110,14 +102,4 @@ void add_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  try {
-    add_all();
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const std::exception& error) {
-    std::cerr << "descriptor_bench: " << error.what() << "\n";
-    return 3;
-  }
-}
+int main(int argc, char** argv) { return beaconless::bench::run_benchmarks(argc, argv, add_all); }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // FALKO and OC, scan by scan over whole drives, with the neighbourhoods that both begin with.
-#include <iostream>
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -8,15 +7,14 @@
 #include "beaconless/features/falko.hpp"
 #include "beaconless/features/oc.hpp"
 
-#include "bench/drives.hpp"
 #include "bench/latencies.hpp"
+#include "bench/whole_drives.hpp"
 
 namespace {
 
 using namespace beaconless;
-using bench::Drive;
 using bench::each_scan;
-using SharedDrive = std::shared_ptr<const Drive>;
+using bench::SharedDrive;
 
 void neighbourhoods(benchmark::State& state, const SharedDrive& drive) {
   BeamNeighbourhoods around;
@@ -45,14 +43,7 @@ void oc(benchmark::State& state, const SharedDrive& drive) {
 }
 
 void add_all() {
-  std::vector<SharedDrive> drives = {std::make_shared<const Drive>(bench::simulated_drive("room-ellipse"))};
-  for (const auto& [name, plan] : {std::pair{"sim_rooms/a1_static", "sim_rooms/a_room4x3.plan.yaml"},
-                                   std::pair{"sim_rooms/b1_ellipse", "sim_rooms/b_room12x8.plan.yaml"}}) {
-    if (auto drive = bench::recorded_drive(name, plan))
-      drives.push_back(std::make_shared<const Drive>(std::move(*drive)));
-    else
-      std::cerr << "keypoint_bench: no " << name << " below BEACONLESS_DATA: left out\n";
-  }
+  const std::vector<SharedDrive> drives = bench::whole_drives();
   const auto add = [](const std::string& name, auto&& run) {
     benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
   };
@@ -69,14 +60,4 @@ void add_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  try {
-    add_all();
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const std::exception& error) {
-    std::cerr << "keypoint_bench: " << error.what() << "\n";
-    return 3;
-  }
-}
+int main(int argc, char** argv) { return beaconless::bench::run_benchmarks(argc, argv, add_all); }

@@ -12,6 +12,7 @@
 
 #include "bench/drives.hpp"
 #include "bench/latencies.hpp"
+#include "bench/whole_drives.hpp"
 
 namespace {
 
@@ -148,14 +149,4 @@ void add_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  try {
-    add_all();
-    benchmark::RunSpecifiedBenchmarks();
-  } catch (const std::exception& error) {
-    std::cerr << "localize_bench: " << error.what() << "\n";
-    return 3;
-  }
-}
+int main(int argc, char** argv) { return beaconless::bench::run_benchmarks(argc, argv, add_all); }

@@ -86,7 +86,7 @@ std::optional<RefinedCorner> meeting_point(const UnrolledScan& points, const Cor
 
 std::optional<RefinedCorner> refine_corner(const UnrolledScan& points, CornerSides sides, std::size_t centre,
                                            const ArmLimits& limits) {
-  const auto corner = meeting_point(points, sides);
+  auto corner = meeting_point(points, sides);
   if (!corner) return corner;
   // 1. cut the neighbourhood where the lines meet; `split` is the first place on the far side of it
   const std::size_t split = place_towards(points, corner->point, sides.left_first + 2, sides.right_last - 1);

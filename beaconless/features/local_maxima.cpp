@@ -11,9 +11,9 @@ bool is_beaten(const std::vector<Keypoint>& candidates, std::size_t k, const Sca
   const Keypoint& self = candidates[k];
   const std::size_t count = candidates.size();
   const auto reach = static_cast<std::size_t>(
-      beams_within(static_cast<float>(radius_m), static_cast<float>(self.point.norm()),
-                   static_cast<float>(1.0 / scan.angle_increment_rad())) +
-      1);
+                         beams_within(static_cast<float>(radius_m), static_cast<float>(self.point.norm()),
+                                      static_cast<float>(1.0 / scan.angle_increment_rad()))) +
+                     1;
   const auto beats = [&](const Keypoint& other) {
     if ((other.point - self.point).squaredNorm() > radius_m * radius_m) return false;
     return other.score > self.score || (other.score == self.score && other.beam < self.beam);

@@ -21,7 +21,10 @@ constexpr float kFlattest = 0.25F;
 
 /// How many neighbours lie along each half axis from the centre, and how many lie elsewhere.
 struct Arms {
-  float left = 0.0F, right = 0.0F, up = 0.0F, down = 0.0F;
+  float left = 0.0F;
+  float right = 0.0F;
+  float up = 0.0F;
+  float down = 0.0F;
   float elsewhere = 0.0F;
   float x_of_vertical = 0.0F;  ///< sums, as seen from the centre
   float y_of_horizontal = 0.0F;
@@ -36,7 +39,13 @@ Arms arms_of(const OcScratch& scratch, std::size_t centre, float tolerance_m) {
   const BeamNeighbourhoods& around = scratch.around;
   const float radius_squared = around.radius_m[centre] * around.radius_m[centre];
   const Floats4 one = Floats4{} + 1.0F;
-  Floats4 left{}, right{}, up{}, down{}, elsewhere{}, x_of_vertical{}, y_of_horizontal{};
+  Floats4 left{};
+  Floats4 right{};
+  Floats4 up{};
+  Floats4 down{};
+  Floats4 elsewhere{};
+  Floats4 x_of_vertical{};
+  Floats4 y_of_horizontal{};
   for (std::size_t place = around.first[centre]; place <= around.last[centre]; place += 4) {
     const Floats4 dx = load4(scratch.x_m.data() + place) - scratch.x_m[centre];
     const Floats4 dy = load4(scratch.y_m.data() + place) - scratch.y_m[centre];
