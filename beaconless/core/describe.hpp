@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -80,12 +81,15 @@ class Fields {
                 [&value](int i) { value = static_cast<Enum>(i); }},
          std::nullopt, std::move(words), std::string(sentence)});
   }
-  /// A config inside a config: its fields are named "section.field".
+  /// A config inside a config: its fields are named "section.field". `settled` are fields that the outer
+  /// config decides and nobody may set.
   template <class Config>
-  void section(std::string_view name, Config& config) {
+  void section(std::string_view name, Config& config, std::initializer_list<std::string_view> settled = {}) {
     const std::string outer = prefix_;
     prefix_ = full(name) + ".";
     describe(*this, config);
+    for (const std::string_view field : settled)
+      std::erase_if(list_, [&](const Field& of) { return of.name == full(field); });
     prefix_ = outer;
   }
 

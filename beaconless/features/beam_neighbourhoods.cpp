@@ -9,7 +9,7 @@ namespace beaconless {
 namespace {
 
 constexpr std::size_t kBlock = 4;
-constexpr float kAnything = 1e30F;
+constexpr float kAnything = 1e30F;  // no squared distance is greater
 
 /// How far off the farthest places within the radius are, for four places side by side.
 struct Reach {
@@ -47,7 +47,8 @@ Reach farthest(const float* x, const float* y, const Floats4& radius_squared, st
 
 void BeamNeighbourhoods::assign(const Scan& scan, const KeypointRadius& radius) {
   const auto beams_per_rad = static_cast<float>(1.0 / scan.angle_increment_rad());
-  points.assign(scan, most_beams_within(beams_per_rad) + kBlock);
+  const auto others = static_cast<std::int32_t>(scan.size()) - 1;
+  points.assign(scan, std::min<std::size_t>(most_beams_within(beams_per_rad), scan.size()) + kBlock);
   for (auto* of : {&first, &last}) of->resize(points.size());
   window.resize(points.size());
   radius_m.resize(points.size());
@@ -60,19 +61,19 @@ void BeamNeighbourhoods::assign(const Scan& scan, const KeypointRadius& radius) 
   for (; beam < scan.size(); ++beam) radii[beam] = radius.at(ranges[beam]);
   std::int32_t* const windows = window.data() + points.begin();
   for (beam = 0; beam < scan.size(); ++beam)
-    windows[beam] = beams_within(radii[beam], std::max(ranges[beam], 1e-9F), beams_per_rad);
+    windows[beam] = std::min(beams_within(radii[beam], std::max(ranges[beam], 1e-9F), beams_per_rad), others);
   // 2. what they reach
   for (std::size_t begin = points.begin(); begin < points.end(); begin += kBlock)
     assign_block(begin, std::min(kBlock, points.end() - begin));
 }
 
 void BeamNeighbourhoods::assign_block(std::size_t begin, std::size_t count) {
-  Floats4 radius_squared{};
+  // a place without a hit takes the first that comes, so that the others need not wait for it
+  Floats4 radius_squared = Floats4{} + kAnything;
   std::int32_t widest = 0;
   for (std::size_t lane = 0; lane < count; ++lane) {
-    // a place without a hit is content with itself
-    radius_squared[lane] =
-        window[begin + lane] == 0 ? 1e30F : radius_m[begin + lane] * radius_m[begin + lane];
+    const float radius = radius_m[begin + lane];
+    if (radius > 0.0F) radius_squared[lane] = radius * radius;
     widest = std::max(widest, window[begin + lane]);
   }
   // 1. the farthest on both sides; places without a hit are at the origin, which is always too far

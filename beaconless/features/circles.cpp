@@ -90,7 +90,7 @@ std::optional<ScanCircle> column(const Points& points, const CirclesConfig& conf
 
 void describe(Fields& fields, CirclesConfig& config) {
   fields("sigma_m", config.sigma_m, {1e-4, 1.0}, "standard deviation of the laser's ranges");
-  fields.section("segmentation", config.segmentation);
+  fields.section("segmentation", config.segmentation, {"sigma_m"});
   fields("split_sigma", config.split_sigma, {0.0, 1000.0},
          "points further than this many sigmas from a chord may be where a column ends");
   fields("min_radius_m", config.min_radius_m, {0.001, 100.0}, "least radius of a column");

@@ -18,17 +18,27 @@ constexpr std::array<DetectorName, 7> kDetectors{{
     {Detector::flirt_curvature, "flirt-curvature", "where the contour bends, over scales in metres"},
 }};
 
-const FlirtConfig& flirt_config(Detector detector, const DetectorsConfig& config) {
+/// Which of the four kinds of FLIRT, and the place of its scratch.
+FlirtKind flirt_kind(Detector detector) {
   switch (detector) {
     case Detector::flirt_blob:
-      return config.flirt_blob;
+      return FlirtKind::normal_blob;
     case Detector::flirt_edge:
-      return config.flirt_edge;
+      return FlirtKind::normal_edge;
     case Detector::flirt_curvature:
-      return config.flirt_curvature;
+      return FlirtKind::curvature;
     default:
-      return config.flirt_range;
+      return FlirtKind::range;
   }
+}
+
+/// The parameters of that kind, whatever kind they say themselves.
+FlirtConfig flirt_config(FlirtKind kind, const DetectorsConfig& config) {
+  const FlirtConfig* const all[] = {&config.flirt_range, &config.flirt_blob, &config.flirt_edge,
+                                    &config.flirt_curvature};
+  FlirtConfig chosen = *all[static_cast<std::size_t>(kind)];
+  chosen.kind = kind;
+  return chosen;
 }
 
 }  // namespace
@@ -55,10 +65,10 @@ void describe(Fields& fields, DetectorsConfig& config) {
   fields.section("corners", config.corners);
   fields.section("falko", config.falko);
   fields.section("oc", config.oc);
-  fields.section("flirt_range", config.flirt_range);
-  fields.section("flirt_blob", config.flirt_blob);
-  fields.section("flirt_edge", config.flirt_edge);
-  fields.section("flirt_curvature", config.flirt_curvature);
+  fields.section("flirt_range", config.flirt_range, {"kind"});
+  fields.section("flirt_blob", config.flirt_blob, {"kind"});
+  fields.section("flirt_edge", config.flirt_edge, {"kind"});
+  fields.section("flirt_curvature", config.flirt_curvature, {"kind"});
 }
 
 Result<DetectorsConfig> detectors_preset(std::string_view name) {
@@ -89,8 +99,11 @@ void detect(const Scan& scan, Detector detector, const DetectorsConfig& config, 
       return detect_falko(scan, config.falko, scratch.falko, keypoints);
     case Detector::oc:
       return detect_oc(scan, config.oc, scratch.oc, keypoints);
-    default:
-      return detect_flirt(scan, flirt_config(detector, config), scratch.flirt, keypoints);
+    default: {
+      const FlirtKind kind = flirt_kind(detector);
+      return detect_flirt(scan, flirt_config(kind, config), scratch.flirt[static_cast<std::size_t>(kind)],
+                          keypoints);
+    }
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,7 +58,7 @@ struct DetectorScratch {
   std::vector<Corner> found_corners;
   FalkoScratch falko;
   OcScratch oc;
-  FlirtScratch flirt;
+  std::array<FlirtScratch, 4> flirt;  ///< one a kind, as each has kernels of its own
 };
 
 /// Runs one detector. Corners come as keypoints: see keypoint_of(). Out: sensor frame, in the detector's

@@ -14,15 +14,19 @@
 namespace beaconless {
 namespace {
 
-/// The neighbours of one side, seen from the centre: every so many that no more than `most` are left.
-void collect(const BeamNeighbourhoods& around, std::size_t centre, std::size_t from, std::size_t to, int most,
+/// The neighbours of one side as seen from the centre, from it outwards: every so many, that no more than
+/// `most` are left. `reach` is how many places that side has.
+void collect(const BeamNeighbourhoods& around, std::size_t centre, std::size_t reach, bool forward, int most,
              FalkoSide& side) {
   const UnrolledScan& points = around.points;
   side.clear();
-  const std::size_t step = most == 0 ? 1 : 1 + (to - from) / static_cast<std::size_t>(most);
-  for (std::size_t place = from; place < to; place += step)
+  const auto limit = static_cast<std::size_t>(most);
+  const std::size_t step = most == 0 ? 1 : std::max<std::size_t>(1, (reach + limit - 1) / limit);
+  for (std::size_t away = 1; away <= reach; away += step) {
+    const std::size_t place = forward ? centre + away : centre - away;
     if (around.has(centre, place))
       side.add(points.x_m[place] - points.x_m[centre], points.y_m[place] - points.y_m[centre]);
+  }
 }
 
 /// How much the directions of one side differ: the sector distances of all its pairs.
@@ -52,8 +56,8 @@ void score(const FalkoConfig& config, const Eigen::Matrix2f& to_axis, std::size_
            std::vector<Keypoint>& keypoints) {
   const BeamNeighbourhoods& around = scratch.around;
   const std::size_t centre = around.points.begin() + beam;
-  collect(around, centre, around.first[centre], centre, config.max_points, scratch.left);
-  collect(around, centre, centre + 1, around.last[centre] + 1, config.max_points, scratch.right);
+  collect(around, centre, centre - around.first[centre], false, config.max_points, scratch.left);
+  collect(around, centre, around.last[centre] - centre, true, config.max_points, scratch.right);
   const auto min_points = static_cast<std::size_t>(config.min_points);
   if (scratch.left.count < min_points || scratch.right.count < min_points) return;
   const Eigen::Vector2f bisector = scratch.left.mean() + scratch.right.mean();
@@ -95,7 +99,7 @@ void detect_falko(const Scan& scan, const FalkoConfig& config, FalkoScratch& scr
   keypoints.clear();
 
   // 1. the disorder of every neighbourhood that is a triangle
-  const double turn = config.centred_sectors ? -kPi / config.sectors : 0.0;
+  const double turn = config.centred_sectors ? -kPi / scratch.sectors.count() : 0.0;
   const Eigen::Matrix2f to_axis = Eigen::Rotation2D<float>(static_cast<float>(turn)).toRotationMatrix();
   const auto share = static_cast<float>(1.0 / config.base_ratio);
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {

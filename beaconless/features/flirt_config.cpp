@@ -8,10 +8,10 @@ void describe(Fields& fields, FlirtConfig& config) {
          "which signal along the scan keypoints are extrema of");
   fields("kernel", config.kernel, {"sampled-gaussian", "discrete-gaussian", "flirtlib-bessel"},
          "how range, blob and edge are smoothed; flirtlib-bessel takes sigma for a variance");
-  fields("sigma_beams", config.sigma_beams, {0.1, 50.0}, "finest scale of range, blob and edge");
+  fields("sigma_beams", config.sigma_beams, {0.1, 10.0}, "finest scale of range, blob and edge");
   fields("sigma_m", config.sigma_m, {0.01, 10.0}, "finest scale of curvature");
-  fields("scale_step_ratio", config.scale_step_ratio, {1.01, 4.0}, "from one scale to the next");
-  fields("scales_count", config.scales_count, {1, 12}, "number of scales");
+  fields("scale_step_ratio", config.scale_step_ratio, {1.01, 2.0}, "from one scale to the next");
+  fields("scales_count", config.scales_count, {1, 10}, "number of scales");
   fields("window_beams", config.window_beams, {3, 101}, "points that a normal is fitted to; odd");
   fields("min_response", config.min_response, {0.0, 100.0},
          "weakest peak: m for range, rad for blob and edge, at most 0.3679 for curvature");

@@ -43,7 +43,7 @@ inline Ints4 load4(const std::uint32_t* from) {
 inline void store4(const Ints4& of, std::uint32_t* to) { std::memcpy(to, &of, sizeof(of)); }
 inline void store4(const Floats4& of, float* to) { std::memcpy(to, &of, sizeof(of)); }
 
-/// e to the power of each lane, for 0 <= x <= 80, right to a millionth of the result.
+/// e to the power of each lane, for 0 <= x <= 80, right to five millionths of the result.
 ///
 /// Source: exp(x) = 2^n exp(f), n the nearest integer to x / ln 2, and Taylor's series of f, |f| <= 0.35.
 inline Floats4 exp4(const Floats4& x) {

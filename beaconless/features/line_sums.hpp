@@ -27,22 +27,33 @@ class LineSums {
   void build(const OrderedPoints& points, double sigma_m, BeamWeight weight) {
     sigma_m_ = sigma_m;
     weight_ = weight;
-    sums_.resize(points.size() + 1);
-    PointMoments sum;
-    sums_[0] = sum;
+    sums_.resize(points.size());
+    Sum sum;
+    double least = 0.0;  // of the squared ranges that may join the stretch
+    double most = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double x = points.x_m[i];
       const double y = points.y_m[i];
+      const double square = x * x + y * y;
       const double hit = points.ranges_m[i] > 0.0F ? 1.0 : 0.0;
-      const double w = weight == BeamWeight::radial ? x * x + y * y : hit;
-      sum.add(x, y, w);
-      sum.count -= 1.0 - hit;
-      sums_[i + 1] = sum;
+      if (i == 0 || (hit > 0.0 && !(square >= least && square <= most))) {
+        sum = {.start = i};
+        least = square / kStretch;
+        most = square * kStretch;
+      }
+      sum.moments.add(x, y, weight == BeamWeight::radial ? square : hit);
+      sum.moments.count -= 1.0 - hit;
+      sums_[i] = sum;
     }
   }
 
   /// Of the hits at the places `first` … `last`, both included.
-  PointMoments of(std::size_t first, std::size_t last) const { return sums_[last + 1] - sums_[first]; }
+  PointMoments of(std::size_t first, std::size_t last) const {
+    PointMoments sum = sums_[last].moments;
+    std::size_t start = sums_[last].start;
+    for (; start > first; start = sums_[start - 1].start) sum = sum + sums_[start - 1].moments;
+    return start == first ? sum : sum - sums_[first - 1].moments;
+  }
 
   /// The noise (m) across the line of a beam whose weight is one.
   double unit_sigma_m(const PrincipalLine& line, const PointMoments& sums) const {
@@ -79,9 +90,19 @@ class LineSums {
   // Bearings jitter and spots are wide: no beam is as good across a wall that it grazes as the cosine says.
   static constexpr double kLeastCosine = 0.1;
 
+  // Terms grow with the fourth power of the range: a far wall in the sum would leave nothing of a near one's
+  // digits. So a sum begins anew where ranges have doubled or halved, and those of several stretches add up.
+  static constexpr double kStretch = 4.0;
+
+  /// Of all places from `start` on.
+  struct Sum {
+    PointMoments moments;
+    std::size_t start = 0;
+  };
+
   double sigma_m_ = 0.0;
   BeamWeight weight_ = BeamWeight::radial;
-  std::vector<PointMoments> sums_;
+  std::vector<Sum> sums_;
 };
 
 }  // namespace beaconless

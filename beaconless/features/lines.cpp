@@ -135,13 +135,13 @@ class LineFinder {
 void describe(Fields& fields, LinesConfig& config) {
   fields("sigma_m", config.sigma_m, {1e-4, 1.0}, "standard deviation of the laser's ranges");
   fields("is_segmented_first", config.is_segmented_first, "cut the scan at jumps before it is split");
-  fields.section("segmentation", config.segmentation);
+  fields.section("segmentation", config.segmentation, {"sigma_m"});
   fields("split_sigma", config.split_sigma, {0.0, 1000.0},
          "points further than this many sigmas from a chord cut it");
   fields("split_least_m", config.split_least_m, {1e-6, 100.0}, "points nearer than this to a chord never do");
   fields("is_cut_again", config.is_cut_again, "cut lines again where two fit far better than one");
   fields("is_merged", config.is_merged, "join neighbours that one line explains as well");
-  fields.section("merging", config.merging);
+  fields.section("merging", config.merging, {"sigma_m"});
   fields("refine_passes", config.refine_passes, {0, 10},
          "how often the ends of neighbours are moved to where their lines cross");
   fields("trim_sigma", config.trim_sigma, {1.0, 1000.0}, "end beams further from their line are left out");
@@ -150,7 +150,7 @@ void describe(Fields& fields, LinesConfig& config) {
   fields("least_incidence_deg", config.least_incidence_deg, {0.0, 45.0},
          "lines that all beams meet at a lesser angle are left out");
   fields("weight", config.weight, {"uniform", "radial"}, "how much a beam counts in a line by tls");
-  fields.section("fit", config.fit);
+  fields.section("fit", config.fit, {"sigma_m"});
 }
 
 void find_lines(const Scan& scan, const LinesConfig& config, LinesScratch& scratch,

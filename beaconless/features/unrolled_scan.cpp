@@ -8,7 +8,7 @@ namespace beaconless {
 
 void UnrolledScan::assign(const Scan& scan, std::size_t pad) {
   beams_ = scan.size();
-  pad_ = scan.is_full_circle() ? std::min(pad, beams_) : pad;
+  pad_ = pad;
   const std::size_t places = beams_ + 2 * pad_;
   x_m.resize(places);
   y_m.resize(places);
@@ -18,12 +18,11 @@ void UnrolledScan::assign(const Scan& scan, std::size_t pad) {
   // 1. points: zeros, or the beams of the other end
   const bool round = scan.is_full_circle();
   const auto lay_out = [&](std::span<const float> from, std::vector<float>& to) {
-    const auto middle = to.begin() + static_cast<std::ptrdiff_t>(pad_);
-    std::fill(to.begin(), middle, 0.0F);
-    if (round) std::copy(from.end() - static_cast<std::ptrdiff_t>(pad_), from.end(), to.begin());
-    const auto after = std::copy(from.begin(), from.end(), middle);
-    std::fill(after, to.end(), 0.0F);
-    if (round) std::copy(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(pad_), after);
+    std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(pad_));
+    for (std::size_t k = 0; k < pad_; ++k) {  // where there are few beams, they come more than once
+      to[pad_ - 1 - k] = round ? from[beams_ - 1 - k % beams_] : 0.0F;
+      to[pad_ + beams_ + k] = round ? from[k % beams_] : 0.0F;
+    }
   };
   lay_out(scan.x_m(), x_m);
   lay_out(scan.y_m(), y_m);

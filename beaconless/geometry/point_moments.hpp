@@ -11,8 +11,8 @@ namespace beaconless {
 /// Weighted sums of points up to second order: all that a least-squares line needs to know of them.
 ///
 /// Sums of parts add up to those of the whole, and a difference of two prefix sums is that of the points
-/// between, so the line through any interval of a scan costs O(1). In double about the sensor: within 100 m
-/// the cancellation stays below a micrometre.
+/// between, so the line through any interval of a scan costs O(1). A difference has only the digits that the
+/// larger sum leaves: points of very different magnitude want sums of their own.
 struct PointMoments {
   double count = 0.0;
   double weight = 0.0;

@@ -39,10 +39,11 @@ void describe(Fields& fields, PairingConfig& config) {
 void candidate_pairs(const FeatureSet& first, const FeatureSet& second, std::span<const float> distances,
                      const Pose2& second_from_first_guess, const PairingConfig& config,
                      std::vector<FeaturePair>& out) {
-  const bool looks = distances.size() == first.points.size() * second.points.size() && !distances.empty();
+  out.clear();
+  const bool looks = !distances.empty();
+  if (looks && distances.size() != first.points.size() * second.points.size()) return;  // of other sets
   const bool gated = config.gate_m > 0.0;
   const double reach_m2 = gated ? config.gate_m * config.gate_m : 1.0;
-  out.clear();
   out.reserve(first.points.size() * second.points.size());
 
   // 1. Every pair that passes kind, look and gate.

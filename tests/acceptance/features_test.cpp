@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the detectors are measured by: how well their keypoints are found again in rooms that an independent
 // program simulated, and the keypoints that the public libraries found there.
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -49,7 +50,11 @@ INSTANTIATE_TEST_SUITE_P(Detectors, FoundAgain,
                                          Again{"flirt-blob", 0.65, 45.0, 0.04},
                                          Again{"flirt-edge", 0.78, 23.0, 0.03},
                                          Again{"flirt-curvature", 0.75, 38.0, 0.04}),
-                         testing::PrintToStringParamName());
+                         [](const auto& of) {
+                           std::string name = of.param.detector;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 /// Keypoints of falkolib by scan, from the list of witnesses.
 using Witnesses = std::map<std::size_t, std::vector<Eigen::Vector2d>>;

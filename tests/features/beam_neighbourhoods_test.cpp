@@ -59,13 +59,26 @@ TEST(BeamNeighbourhoods, AreThoseOfTheDefinition) {
 
 TEST(BeamNeighbourhoods, OfFewBeamsAreNotBeyondThem) {
   for (std::size_t beams : {1U, 2U, 3U, 5U, 7U}) {
-    for (double step_deg : {0.25, 360.0 / static_cast<double>(std::max<std::size_t>(beams, 3))}) {
+    for (double step_deg : {0.25, 360.0 / static_cast<double>(std::max<std::size_t>(beams, 2))}) {
       RawScan raw{.angle_increment_rad = static_cast<float>(radians(step_deg)),
                   .range_min_m = 0.0F,
                   .range_max_m = 10.0F};
       raw.ranges_m.assign(beams, 2.0F);
       expect_as_defined(Scan::make(raw).value());
     }
+  }
+}
+
+TEST(BeamNeighbourhoods, OfBeamsFinerThanAnyAreWithinTheScan) {
+  RawScan raw{.angle_increment_rad = 1e-6F, .range_min_m = 0.0F, .range_max_m = 10.0F};
+  raw.ranges_m.assign(3000, 2.0F);
+  expect_as_defined(Scan::make(raw).value());
+}
+
+TEST(Exp4, IsTheExponential) {
+  for (float x = 0.0F; x <= 80.0F; x += 0.0137F) {
+    const double exact = std::exp(static_cast<double>(x));
+    EXPECT_NEAR(static_cast<double>(exp4(Floats4{} + x)[3]) / exact, 1.0, 5e-6) << x;
   }
 }
 

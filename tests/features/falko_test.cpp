@@ -182,6 +182,9 @@ TEST(Falko, PutsTheKeypointBetweenTheBeams) {
   double refined = 0.0;
   FalkoConfig beams_only;
   beams_only.subbeam = SubBeam::off;
+  FalkoConfig neighbourhood;
+  neighbourhood.subbeam = SubBeam::neighbourhood;
+  double as_authors = 0.0;
   int count = 0;
   for (int k = 0; k < 100; ++k) {
     const Pose2 pose{2.0 + 0.003 * k, 1.7, 0.8};
@@ -193,11 +196,52 @@ TEST(Falko, PutsTheKeypointBetweenTheBeams) {
       return least;
     };
     for (const Keypoint& keypoint : detect_falko(scan, beams_only)) at_beam += error(keypoint);
+    for (const Keypoint& keypoint : detect_falko(scan, neighbourhood)) as_authors += error(keypoint);
     for (const Keypoint& keypoint : detect_falko(scan)) refined += error(keypoint), ++count;
   }
   ASSERT_GT(count, 150);
   EXPECT_LT(refined / count, 0.006);
   EXPECT_LT(refined, 0.4 * at_beam);
+  EXPECT_LT(refined, 0.8 * as_authors) << "grown sides know more than the neighbourhood";
+}
+
+/// The same room seen in a mirror: the same keypoints, mirrored.
+TEST(Falko, SeesNoDifferenceInAMirror) {
+  Rng rng(12);
+  const RayCaster walls(test::niche_room().segments());
+  for (int k = 0; k < 20; ++k) {
+    RawScan raw = test::sweep(walls, {1.0 + 0.2 * k, 1.5, 0.3 * k}, 0.01, rng);
+    FalkoConfig config;
+    config.subbeam = SubBeam::off;
+    const auto seen = detect_falko(Scan::make(raw).value(), config);
+    std::ranges::reverse(raw.ranges_m);
+    const auto mirrored = detect_falko(Scan::make(raw).value(), config);
+    ASSERT_EQ(mirrored.size(), seen.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Keypoint& other = mirrored[seen.size() - 1 - i];
+      if (std::abs(static_cast<int>(1080 - other.beam) - static_cast<int>(seen[i].beam)) > 0)
+        continue;  // a tie
+      EXPECT_NEAR(wrap_angle(seen[i].orientation_rad + other.orientation_rad), 0.0, 1e-4);
+      EXPECT_NEAR(seen[i].score, other.score, 0.05) << "float rounding at the limits of sectors";
+    }
+  }
+}
+
+TEST(Falko, LooksOnlyWhereItIsTold) {
+  Rng rng(12);
+  const RayCaster walls(test::rectangle(4, 4).segments());
+  const Scan scan = Scan::make(test::full_circle(walls, {1, 1, 0.3}, 0.005, rng)).value();
+  FalkoConfig far;
+  far.range_min_m = 2.0;
+  FalkoConfig near;
+  near.range_max_m = 2.0;
+  ASSERT_EQ(detect_falko(scan).size(), 4U);
+  EXPECT_EQ(detect_falko(scan, far).size(), 3U) << "one corner is 1.4 m away";
+  EXPECT_EQ(detect_falko(scan, near).size(), 1U);
+  FalkoConfig bound;
+  bound.subbeam_limit_m = 0.0;
+  for (const Keypoint& keypoint : detect_falko(scan, bound))
+    EXPECT_EQ(keypoint.point, scan.point(keypoint.beam)) << "no refinement is believed";
 }
 
 TEST(Falko, IsNothingWhereThereIsNoCorner) {
@@ -246,9 +290,7 @@ TEST(Falko, AllocatesNothingOnceItHasSeenAScan) {
     scans.push_back(Scan::make(test::sweep(walls, {3.0 + 0.05 * i, 2, 0.1 * i}, 0.01, rng)).value());
   FalkoScratch scratch;
   std::vector<Keypoint> keypoints;
-  keypoints.reserve(1081);
-  scratch.candidates.reserve(1081);
-  detect_falko(scans[0], {}, scratch, keypoints);
+  for (const Scan& scan : scans) detect_falko(scan, {}, scratch, keypoints);
   const std::size_t before = test::allocations();
   for (const Scan& scan : scans) detect_falko(scan, {}, scratch, keypoints);
   EXPECT_EQ(test::allocations(), before);

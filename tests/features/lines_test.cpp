@@ -55,6 +55,26 @@ TEST(Merge, RunsOverTheEndOfAFullCircle) {
   EXPECT_EQ(merged[0], (ScanSegment{1361, 158}));
 }
 
+/// Weights grow with the square of the range, terms with its fourth power: in one sum a single beam that saw
+/// a mountain would leave nothing of the room.
+TEST(FindLines, OneVeryFarBeamHarmsNoOther) {
+  Rng rng(6);
+  const RayCaster walls(test::niche_room().segments());
+  for (const float far_m : {100.0F, 3000.0F, 30000.0F}) {
+    RawScan raw = test::sweep(walls, {3, 2, 0.2}, 0.01, rng);
+    raw.range_max_m = 0.0F;
+    raw.ranges_m[100] = 12.0F;  // through a gap into the next room
+    const auto without = find_lines(Scan::make(raw).value());
+    raw.ranges_m[100] = far_m;
+    const auto with = find_lines(Scan::make(raw).value());
+    ASSERT_EQ(with.size(), without.size()) << far_m;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      EXPECT_NEAR(with[i].fit.line.rho_m, without[i].fit.line.rho_m, 1e-6) << far_m;
+      EXPECT_NEAR(with[i].fit.line.alpha_rad, without[i].fit.line.alpha_rad, 1e-6) << far_m;
+    }
+  }
+}
+
 TEST(LineSums, ChiSquareIsThatOfTheLinesOwnBeams) {
   Rng rng(2);
   const Scan wall = test::scan_of({.beams = 161, .first_deg = 10.0}, [&](int, double bearing) {

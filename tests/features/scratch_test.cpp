@@ -85,6 +85,11 @@ struct MergeBuffers {
 
 std::vector<Reuser> all() {
   std::vector<Reuser> reusers;
+  reusers.push_back(reuser<DetectorScratch, Keypoint>(
+      "all detectors in turn",
+      [config = DetectorsConfig{}](const Scan& scan, DetectorScratch& scratch, std::vector<Keypoint>& out) {
+        for (const DetectorName& of : detectors()) detect(scan, of.detector, config, scratch, out);
+      }));
   for (const DetectorName& of : detectors())
     reusers.push_back(reuser<DetectorScratch, Keypoint>(
         std::string(of.name), [detector = of.detector, config = DetectorsConfig{}](

@@ -272,6 +272,7 @@ TEST(PairAgreement, IsTheChiSquareTestOfTheLengthsAndAChiSquareItIs) {
   // d1² - d2² has variance 8 σ² (d1² + d2²) / 2 a side: 95 % of the right pairs must pass, and more only by
   // as much as the test is wide.
   EXPECT_GT(agreed, 0.94 * runs);
+  EXPECT_LT(agreed, 0.96 * runs);
   const std::vector<Eigen::Vector2d> line{{0, 0}, {3, 0}, {3, 0}};
   const std::vector<double> turns{0.0, 1.0, 0.0};
   const PairAgreement agreement({line, turns}, {line, turns}, config);
