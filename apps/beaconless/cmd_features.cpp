@@ -41,7 +41,8 @@ void add_features(CLI::App& app, Console& console, int& exit_code) {
       ->check(CLI::IsMember({"beaconless", "authors", "dissertation"}))
       ->capture_default_str();
   command
-      ->add_option("--set", words->set, "One parameter, name=value (see beaconless params); may be repeated")
+      ->add_option("--set", words->set,
+                   "One parameter, name=value (see beaconless params --features); may be repeated")
       ->allow_extra_args(false);
   command->add_option(
       "--reference", words->reference,

@@ -163,6 +163,20 @@ void say(const Console& console, const FeaturesWords& words, const Harvest& harv
   console.result({{"scans", harvest.scan_indices.size()}, {"detectors", rows}});
 }
 
+/// Refuses to write over what is read, or two things into one file.
+Result<Done> check_outputs(const FeaturesWords& words) {
+  const auto same = [](const std::string& p, const std::string& q) {
+    std::error_code none;
+    return !p.empty() && !q.empty() && (p == q || std::filesystem::equivalent(p, q, none));
+  };
+  for (const std::string& out : {words.csv, words.plot})
+    if (same(out, words.recording) || same(out, words.reference))
+      return Error{out, "this file is read, and would be written over",
+                   "give --csv and --plot files of their own"};
+  if (same(words.csv, words.plot)) return Error{words.csv, "--csv and --plot are the same file", "give two"};
+  return Done{};
+}
+
 }  // namespace
 
 int features_run(const Console& console, const FeaturesWords& words) {
@@ -175,6 +189,7 @@ int features_run(const Console& console, const FeaturesWords& words) {
   if (!scans) return console.fail(scans.error(), exit_usage);
   if (!words.sweep.empty() && words.plot.empty())
     return console.fail({"--sweep", "there is no file to draw into", "give --plot FILE.svg"}, exit_usage);
+  if (auto outputs = check_outputs(words); !outputs) return console.fail(outputs.error(), exit_usage);
   // 2. Detect.
   ProblemLog problems;
   const auto recording = open_recording(words.recording, words.scan, problems);

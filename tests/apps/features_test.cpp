@@ -116,6 +116,8 @@ TEST_F(FeaturesVerb, RefusesWhatItDoesNotKnow) {
   refused({"--set", "falko.sectors=1000"}, "4 … 64");
   refused({"--sweep", "threshold"}, "--plot");
   refused({"--scan", "4000", "--plot", folder.path("no.svg")}, "--scan 4000");
+  refused({"--csv", recording()}, "written over");
+  refused({"--csv", folder.path("one"), "--plot", folder.path("one")}, "the same file");
   refused({"--gap", "0"}, "--gap");
   EXPECT_EQ(run(features({"--csv", folder.path("no/such/folder.csv")})).exit_code, 3);
   EXPECT_EQ(run({"features", folder.path("nothing.log")}).exit_code, 3);
