@@ -6,8 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "beaconless/geometry/angle.hpp"
-
 namespace beaconless::eval {
 namespace {
 
@@ -21,11 +19,8 @@ double ratio(std::size_t part, std::size_t whole) {
 bool sees(const Scan& scan, const Eigen::Vector2d& point, double occluded_m) {
   const double range = point.norm();
   if (range < scan.range_min_m() || range >= scan.range_max_m()) return false;
-  const double from_first = std::atan2(point.y(), point.x()) - scan.angle_min_rad();
-  const double turn = 2.0 * kPi;
-  const double beams = (from_first - turn * std::floor(from_first / turn)) / scan.angle_increment_rad();
   // 1. outside the field of view?
-  const auto at = static_cast<std::size_t>(beams);
+  const auto at = static_cast<std::size_t>(scan.beams_towards(point));
   if (at + 1 >= scan.size() && !(scan.is_full_circle() && at < scan.size())) return false;
   // 2. is something in front of it on both sides?
   double reach = 0.0;

@@ -24,10 +24,7 @@ bool is_at_an_end(const ScanLine& line, const Eigen::Vector2d& point, double sla
 
 /// The beam whose bearing is nearest to a point's; size() outside of the field of view.
 std::size_t beam_towards(const Scan& scan, const Eigen::Vector2d& point) {
-  const double turn = 2.0 * kPi;
-  const double from_first = std::atan2(point.y(), point.x()) - scan.angle_min_rad();
-  const double beams = (from_first - turn * std::floor(from_first / turn)) / scan.angle_increment_rad();
-  const auto nearest = static_cast<std::size_t>(std::lround(beams));
+  const auto nearest = static_cast<std::size_t>(std::lround(scan.beams_towards(point)));
   if (nearest < scan.size()) return nearest;
   return scan.is_full_circle() ? nearest % scan.size() : scan.size();
 }

@@ -132,6 +132,12 @@ Eigen::Vector2d Scan::direction(std::size_t beam) const {
   return {std::cos(angle), std::sin(angle)};
 }
 
+double Scan::beams_towards(const Eigen::Vector2d& point) const {
+  const double turn = 2.0 * kPi;
+  const double from_first = std::atan2(point.y(), point.x()) - angle_min_rad_;
+  return (from_first - turn * std::floor(from_first / turn)) / angle_increment_rad_;
+}
+
 std::ostream& operator<<(std::ostream& out, const Scan& scan) {
   return out << "Scan(" << scan.stamp() << " s, " << scan.hit_count() << " hits of " << scan.size()
              << " beams, " << degrees(scan.angle_min_rad()) << " deg by "

@@ -80,6 +80,10 @@ class Scan {
   /// Seconds from the first beam to the last; 0 where the source tells no time per beam.
   double sweep_time_s() const { return std::abs(time_increment_s_) * static_cast<double>(size() - 1); }
 
+  /// At which beam a point lies, with the fraction to the next one: in [0, beams of a whole turn), so it may
+  /// lie beyond the last beam. In: sensor frame.
+  double beams_towards(const Eigen::Vector2d& point) const;
+
   bool is_hit(std::size_t beam) const { return beams_[beam] == Beam::hit; }
   Eigen::Vector2d point(std::size_t beam) const { return {x_m_[beam], y_m_[beam]}; }
   Eigen::Vector2d direction(std::size_t beam) const;
