@@ -13,11 +13,12 @@
 #include "beaconless/features/flirt.hpp"
 #include "beaconless/features/keypoint.hpp"
 #include "beaconless/features/oc.hpp"
+#include "beaconless/features/vertices.hpp"
 
 namespace beaconless {
 
 /// What finds points in a scan, by the names that users type.
-enum class Detector : int { corners, falko, oc, flirt_range, flirt_blob, flirt_edge, flirt_curvature };
+enum class Detector : int { corners, falko, oc, flirt_range, flirt_blob, flirt_edge, flirt_curvature, rdp };
 
 /// A detector's name and what it finds, for lists and help.
 struct DetectorName {
@@ -43,6 +44,7 @@ struct DetectorsConfig {
   FlirtConfig flirt_blob = flirt_defaults(FlirtKind::normal_blob);
   FlirtConfig flirt_edge = flirt_defaults(FlirtKind::normal_edge);
   FlirtConfig flirt_curvature = flirt_defaults(FlirtKind::curvature);
+  VerticesConfig rdp;
 };
 
 void describe(Fields& fields, DetectorsConfig& config);
@@ -59,6 +61,7 @@ struct DetectorScratch {
   FalkoScratch falko;
   OcScratch oc;
   std::array<FlirtScratch, 4> flirt;  ///< one a kind, as each has kernels of its own
+  VerticesScratch rdp;
 };
 
 /// Runs one detector. Corners come as keypoints: see keypoint_of(). Out: sensor frame, in the detector's
