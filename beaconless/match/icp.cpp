@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "beaconless/geometry/rigid_fit.hpp"
+#include "beaconless/match/observability.hpp"
 
 namespace beaconless {
 namespace {
@@ -96,41 +95,6 @@ Normal weigh(const std::vector<Pair>& pairs, const Loss& loss, double scale_m) {
   return normal;
 }
 
-/// The eigenvectors of the Hessian with headings measured in metres at the mean arm, and which of them are
-/// determined.
-struct Observability {
-  Eigen::Matrix3d directions;     // columns, least certain first, in (m, m, rad)
-  Eigen::Matrix3d to_components;  // its inverse
-  Eigen::Vector3d hessian;        // eigenvalues
-  int weak_count = 0;
-
-  Observability(const Eigen::Matrix3d& full, double arm_m, double scale_m, double unobservable_sigma_m) {
-    const Eigen::DiagonalMatrix<double, 3> to_metres(1.0, 1.0, 1.0 / arm_m);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-        Eigen::Matrix3d(to_metres * full * to_metres));
-    directions = to_metres * solver.eigenvectors();
-    to_components = solver.eigenvectors().transpose() * to_metres.inverse();
-    hessian = solver.eigenvalues();
-    const double least = scale_m * scale_m / (unobservable_sigma_m * unobservable_sigma_m);
-    while (weak_count < 3 && !(hessian[weak_count] > least)) ++weak_count;
-  }
-
-  /// A step without what it moves along undetermined directions.
-  Eigen::Vector3d determined(const Eigen::Vector3d& step) const {
-    Eigen::Vector3d components = to_components * step;
-    components.head(weak_count).setZero();
-    return directions * components;
-  }
-
-  /// H⁻¹ along the determined directions only.
-  Eigen::Matrix3d inverse() const {
-    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-    for (int k = weak_count; k < 3; ++k)
-      inverse += directions.col(k) * directions.col(k).transpose() / hessian[k];
-    return inverse;
-  }
-};
-
 Pose2 moved(const Pose2& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.theta_rad + step.z())};
 }
@@ -148,9 +112,7 @@ Eigen::Matrix3d sandwich(const Normal& normal, const Observability& seen, double
   const double bread = std::clamp(normal.curvature / normal.weight, 0.2, 1.0);
   const Eigen::Matrix3d inverse = seen.inverse() / bread;
   Eigen::Matrix3d covariance = inverse * normal.noise * inverse;
-  for (int k = 0; k < seen.weak_count; ++k)
-    covariance += MatchResult::kUnknownSigma * MatchResult::kUnknownSigma * seen.directions.col(k) *
-                  seen.directions.col(k).transpose();
+  covariance += seen.unknown();
   // The map's error does not average out over the beams of a wall.
   covariance.diagonal() += map_sigma_m * map_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
   return covariance;
