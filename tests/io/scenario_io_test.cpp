@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/io/scenario_io.hpp"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -36,10 +37,11 @@ bool is_enclosed(const RayCaster& walls, const Eigen::Vector2d& place) {
   return true;
 }
 
-TEST(Scenarios, TheSixOfTheDissertationAndTheDemoAreThere) {
+TEST(Scenarios, TheSixOfTheDissertationAndTwoMoreAreThere) {
   EXPECT_THAT(scenario_names(kScenarios),
-              testing::ElementsAre("room-ellipse", "room-ellipse-people", "room-position-1",
-                                   "room-position-2", "small-drive", "small-rotation", "small-static"));
+              testing::ElementsAre("room-ellipse", "room-ellipse-people", "room-ellipse-three-people",
+                                   "room-position-1", "room-position-2", "small-drive", "small-rotation",
+                                   "small-static"));
   EXPECT_THAT(scenario_names(kScenarios + "/nowhere"), testing::IsEmpty());
 }
 
@@ -48,7 +50,7 @@ class EachScenario : public testing::TestWithParam<std::string> {};
 TEST(Scenarios, TheDissertationsHaveTheirSweeps) {
   for (const char* name : {"small-static", "small-rotation", "room-position-1", "room-position-2"})
     EXPECT_EQ(scenario_of(name).sweep_count(), 400U) << name;
-  for (const char* name : {"room-ellipse", "room-ellipse-people"})
+  for (const char* name : {"room-ellipse", "room-ellipse-people", "room-ellipse-three-people"})
     EXPECT_EQ(scenario_of(name).sweep_count(), 1600U) << name;
 }
 
@@ -98,22 +100,52 @@ INSTANTIATE_TEST_SUITE_P(Data, EachScenario, testing::ValuesIn(scenario_names(kS
                            return name;
                          });
 
+/// How often a person steps onto the ellipse that the robot drives or off it.
+int crossings_of(const sim::Scenario& scenario, const sim::Person& person) {
+  const auto& path = std::get<sim::Ellipse>(scenario.path);
+  const auto inside = [&](double t) {
+    const Eigen::Vector2d at = person.position_m(t) - Eigen::Vector2d(path.center_x_m, path.center_y_m);
+    return std::hypot(at.x() / path.semi_axis_x_m, at.y() / path.semi_axis_y_m) < 1.0;
+  };
+  int crossings = 0;
+  for (double t = 0.05; t <= scenario.duration_s; t += 0.05)
+    crossings += inside(t) != inside(t - 0.05) ? 1 : 0;
+  return crossings;
+}
+
 TEST(Scenarios, TheEllipseReturnsToItsStartAndThePersonCrossesIt) {
   const sim::Scenario scenario = scenario_of("room-ellipse-people");
   EXPECT_EQ(scenario.path, scenario_of("room-ellipse").path);
   const sim::Drive drive(scenario.path);
   EXPECT_LT(distance_m(drive.map_from_base(0.0), drive.map_from_base(scenario.duration_s)), 1e-9);
   ASSERT_EQ(scenario.people.size(), 1U);
-  const auto inside = [&](double t) {
-    const auto& path = std::get<sim::Ellipse>(scenario.path);
-    const Eigen::Vector2d at =
-        scenario.people[0].position_m(t) - Eigen::Vector2d(path.center_x_m, path.center_y_m);
-    return std::hypot(at.x() / path.semi_axis_x_m, at.y() / path.semi_axis_y_m) < 1.0;
+  EXPECT_GE(crossings_of(scenario, scenario.people[0]), 10);
+}
+
+TEST(Scenarios, ThreePeopleAreOftenNearAllAtOnce) {
+  const sim::Scenario scenario = scenario_of("room-ellipse-three-people");
+  EXPECT_EQ(scenario.path, scenario_of("room-ellipse").path);
+  ASSERT_EQ(scenario.people.size(), 3U);
+  for (const sim::Person& person : scenario.people) EXPECT_GE(crossings_of(scenario, person), 6);
+  const sim::Drive drive(scenario.path);
+  std::array<std::size_t, 4> sweeps{};
+  for (std::size_t i = 0; i < scenario.sweep_count(); ++i) {
+    const double t = static_cast<double>(i) / scenario.lidar.rate_hz;
+    const Pose2 laser_from_map = (drive.map_from_base(t) * scenario.base_from_laser).inverse();
+    std::size_t near = 0;
+    for (const sim::Person& person : scenario.people) {
+      const Eigen::Vector2d at = laser_from_map * person.position_m(t);
+      if (at.norm() < 3.0 && std::abs(std::atan2(at.y(), at.x())) < radians(135.0)) ++near;
+    }
+    ++sweeps[near];
+  }
+  // As data/README.md says.
+  const auto share = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(scenario.sweep_count());
   };
-  int crossings = 0;
-  for (double t = 0.05; t <= scenario.duration_s; t += 0.05)
-    crossings += inside(t) != inside(t - 0.05) ? 1 : 0;
-  EXPECT_GE(crossings, 10);
+  EXPECT_NEAR(share(sweeps[3]), 0.37, 0.01);
+  EXPECT_NEAR(share(sweeps[3] + sweeps[2]), 0.57, 0.01);
+  EXPECT_NEAR(share(sweeps[3] + sweeps[2] + sweeps[1]), 0.77, 0.01);
 }
 
 class ReadScenario : public testing::Test {
