@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "beaconless/core/parse.hpp"
 #include "beaconless/eval/nees.hpp"
 #include "beaconless/io/estimates_csv.hpp"
 #include "beaconless/io/map_io.hpp"
 #include "beaconless/io/tum.hpp"
 
 #include "commands.hpp"
+#include "evaluate_relations.hpp"
 #include "tables.hpp"
 #include "words.hpp"
 
@@ -25,7 +28,14 @@ struct EvaluateWords {
   std::string topic;
   std::string base_from_laser = "0,0,0";
   double max_gap_s = 1.0;
+  RelationWords relations;
 };
+
+/// What keeps an option's text from being a finite number; "" when nothing does.
+std::string not_finite(const std::string& text) {
+  const auto number = parse_double(text);
+  return number && std::isfinite(*number) ? "" : "\"" + text + "\" is no finite number";
+}
 
 bool is_csv(const std::string& path) { return path.ends_with(".csv"); }
 
@@ -40,9 +50,14 @@ Result<eval::RangeSensor> sensor_of(const EvaluateWords& words) {
 }
 
 int evaluate(const Console& console, const EvaluateWords& words) {
+  const bool by_relations = !words.relations.relations.empty();
+  if (by_relations == !words.reference.empty())
+    return console.fail({"evaluate", by_relations ? "there are two references" : "there is no reference",
+                         "give a TUM file of reference poses, or --relations FILE"},
+                        exit_usage);
   ProblemLog problems;
   const auto on_problem = [&](const io::Problem& problem) { problems.add(problem); };
-  // 1. Read both trajectories.
+  // 1. Read the trajectory and what it is compared with.
   std::vector<PoseEstimate> estimates;
   Trajectory estimate;
   if (is_csv(words.estimate)) {
@@ -54,6 +69,14 @@ int evaluate(const Console& console, const EvaluateWords& words) {
     auto trajectory = io::read_tum(words.estimate, on_problem);
     if (!trajectory) return console.fail(trajectory.error());
     estimate = *trajectory;
+  }
+  if (by_relations) {
+    problems.report(console);
+    RelationWords relations = words.relations;
+    relations.estimate = words.estimate;
+    relations.recording = words.recording;
+    relations.topic = words.topic;
+    return evaluate_relations(console, relations, estimate);
   }
   const auto reference = io::read_tum(words.reference, on_problem);
   if (!reference) return console.fail(reference.error());
@@ -105,7 +128,20 @@ void add_evaluate(CLI::App& app, Console& console, int& exit_code) {
       ->add_option("estimate", words->estimate,
                    "Estimated poses: a TUM file, or estimates.csv (checks the covariance too)")
       ->required();
-  command->add_option("reference", words->reference, "Reference poses: a TUM file")->required();
+  command->add_option("reference", words->reference, "Reference poses: a TUM file");
+  command->add_option("--relations", words->relations.relations,
+                      "In the place of a reference: known relations between pairs of poses (t1 t2 x y z "
+                      "roll pitch yaw, or i j x y theta with numbers of scans)");
+  command
+      ->add_option("--clock-offset", words->relations.clock_offset_s,
+                   "Seconds by which the relations' clock is ahead of the estimate's")
+      ->check(not_finite, "NUMBER")
+      ->capture_default_str();
+  command
+      ->add_option("--tolerance", words->relations.tolerance_s,
+                   "How far from a relation's stamp its pose may be [s]")
+      ->check(not_from_zero_on, "NUMBER >= 0")
+      ->capture_default_str();
   command->add_flag("--align", words->align, "Print the errors after rigid alignment too");
   command->add_option("--map", words->map, "Floor plan, for the Cramér–Rao bound");
   command
@@ -113,7 +149,8 @@ void add_evaluate(CLI::App& app, Console& console, int& exit_code) {
       ->check(not_positive, "NUMBER > 0")
       ->capture_default_str();
   command->add_option("--recording", words->recording,
-                      "Recording whose scanner the bound is for (default: UTM-30LX)");
+                      "Recording whose scanner the bound is for (default: UTM-30LX), or whose scans "
+                      "relations count");
   command->add_option("--topic", words->topic, "Its scan topic");
   command->add_option("--base-from-laser", words->base_from_laser, "Laser on the robot, x,y,deg")
       ->capture_default_str();

@@ -6,17 +6,18 @@
 namespace beaconless::cli {
 namespace {
 
-nlohmann::json to_json(const eval::Statistics& s) {
-  return {{"mean", s.mean}, {"rmse", s.rmse},     {"sd", s.sd},  {"max", s.max},
-          {"min", s.min},   {"median", s.median}, {"p95", s.p95}};
-}
-
 std::string row(std::string_view name, const eval::Statistics& s) {
-  return fmt::format("{:<14}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}\n", name, s.mean,
+  return fmt::format("{:<17}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}{:>10.5f}\n", name, s.mean,
                      s.rmse, s.sd, s.max, s.min, s.median, s.p95);
 }
 
 }  // namespace
+
+nlohmann::json to_json(const eval::Statistics& statistics) {
+  const eval::Statistics& s = statistics;
+  return {{"mean", s.mean}, {"rmse", s.rmse},     {"sd", s.sd},  {"max", s.max},
+          {"min", s.min},   {"median", s.median}, {"p95", s.p95}};
+}
 
 Judgement judge(const Trajectory& estimate, const Trajectory& reference, const Map* map,
                 const eval::RangeSensor& sensor, const Pose2& base_from_laser, double max_gap_s) {
@@ -45,10 +46,10 @@ nlohmann::json to_json(const Judgement& judgement) {
   return object;
 }
 
-std::string table_text(const eval::ErrorTable& table) {
-  return fmt::format("{:<14}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "mean", "rmse", "sd", "max",
+std::string table_text(const eval::ErrorTable& table, std::string_view first, std::string_view second) {
+  return fmt::format("{:<17}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "mean", "rmse", "sd", "max",
                      "min", "median", "p95") +
-         row("position [m]", table.position_m) + row("heading [deg]", table.heading_deg);
+         row(first, table.position_m) + row(second, table.heading_deg);
 }
 
 }  // namespace beaconless::cli

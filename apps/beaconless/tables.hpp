@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -23,10 +24,14 @@ struct Judgement {
 Judgement judge(const Trajectory& estimate, const Trajectory& reference, const Map* map,
                 const eval::RangeSensor& sensor, const Pose2& base_from_laser, double max_gap_s = 1.0);
 
+/// {"mean", "rmse", "sd", "max", "min", "median", "p95"}
+nlohmann::json to_json(const eval::Statistics& statistics);
+
 /// {"pairs", "position_m", "heading_deg", "aligned", "crb_ratio", "unmatched"}
 nlohmann::json to_json(const Judgement& judgement);
 
 /// The dissertation's table: one row for the position, one for the heading.
-std::string table_text(const eval::ErrorTable& table);
+std::string table_text(const eval::ErrorTable& table, std::string_view first = "position [m]",
+                       std::string_view second = "heading [deg]");
 
 }  // namespace beaconless::cli
