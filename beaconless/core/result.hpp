@@ -58,6 +58,7 @@ class [[nodiscard]] Result {
     return std::get<T>(std::move(state_));
   }
   const T& operator*() const& { return value(); }
+  T operator*() && { return std::move(*this).value(); }
   const T* operator->() const { return &value(); }
 
   const Error& error() const { return std::get<Error>(state_); }

@@ -4,10 +4,17 @@
 #include <string>
 
 #include "beaconless/core/describe.hpp"
+#include "beaconless/features/interest_regions.hpp"
+#include "beaconless/features/point_feature.hpp"
 #include "beaconless/geometry/pose2.hpp"
 #include "beaconless/localize/health.hpp"
+#include "beaconless/map/occupancy_pyramid.hpp"
+#include "beaconless/match/feature_icp.hpp"
+#include "beaconless/match/feature_map.hpp"
+#include "beaconless/match/hector.hpp"
 #include "beaconless/match/icp.hpp"
 #include "beaconless/match/local_search.hpp"
+#include "beaconless/track/feature_tracker.hpp"
 #include "beaconless/track/motion_filter.hpp"
 
 namespace beaconless {
@@ -17,6 +24,13 @@ struct LocalizerConfig {
   std::string method = "icp-full";
   Pose2 base_from_laser;  ///< where the laser sits on the robot
   IcpConfig icp;
+  PointFeaturesConfig features;   ///< how the feature methods find features …
+  FeatureMapConfig feature_map;   ///< … in the map
+  FeatureIcpConfig feature_icp;   ///< … and pair both
+  FeatureTrackerConfig tracking;  ///< of the methods that remember features
+  InterestRegionsConfig regions;  ///< of `hector-regions`
+  PyramidConfig pyramid;
+  HectorConfig hector;
   LocalSearchConfig search;
   MotionConfig motion;
   HealthConfig health;

@@ -4,71 +4,180 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "beaconless/core/suggest.hpp"
-#include "beaconless/localize/icp_localizer.hpp"
+#include "beaconless/localize/feature_matcher.hpp"
+#include "beaconless/localize/points_matcher.hpp"
+#include "beaconless/localize/tracking_localizer.hpp"
 
 namespace beaconless {
 namespace {
 
-const std::array<Method, 1> kMethods = {
-    Method{"icp-full", "every point of the scan against the walls of the map, by re-weighted ICP"},
+constexpr int kLeastKeypoints = 3;  // three on different walls make a pose; a scan has a dozen at most
+
+/// What the scan is fitted by.
+enum class Fitting { icp, feature_icp, hector };
+
+/// A method: what is taken from a scan, and how that is fitted to the map.
+struct Recipe {
+  Fitting fitting;
+  PointsFrom points = PointsFrom::whole_scan;  // of icp and hector
+  Detector detector = Detector::falko;         // of all but whole scans
+  bool is_tracked = false;                     // of feature_icp
 };
+
+struct NamedRecipe {
+  Method method;
+  Recipe recipe;
+};
+
+const std::array<NamedRecipe, 13>& recipes() {
+  static const std::array<NamedRecipe, 13> all{{
+      {{"icp-full", "every point of the scan against the walls of the map, by re-weighted ICP"},
+       {Fitting::icp}},
+      {{"icp-rdp", "vertices that Douglas and Peucker keep, as corners, by re-weighted ICP"},
+       {Fitting::feature_icp, {}, Detector::rdp}},
+      {{"icp-corners", "corners where fitted lines cross, by re-weighted ICP"},
+       {Fitting::feature_icp, {}, Detector::corners}},
+      {{"icp-corners-ft", "the same, and corners are remembered for a few scans after they vanish"},
+       {Fitting::feature_icp, {}, Detector::corners, true}},
+      {{"icp-oc", "keypoints of OC, by re-weighted ICP"}, {Fitting::feature_icp, {}, Detector::oc}},
+      {{"icp-falko", "keypoints of FALKO, by re-weighted ICP"}, {Fitting::feature_icp, {}, Detector::falko}},
+      {{"icp-flirt-blob", "keypoints of FLIRT's normal blobs, by re-weighted ICP"},
+       {Fitting::feature_icp, {}, Detector::flirt_blob}},
+      {{"icp-flirt-edge", "keypoints of FLIRT's normal edges, by re-weighted ICP"},
+       {Fitting::feature_icp, {}, Detector::flirt_edge}},
+      {{"icp-flirt-range", "keypoints of FLIRT's ranges, by re-weighted ICP"},
+       {Fitting::feature_icp, {}, Detector::flirt_range}},
+      {{"icp-flirt-curvature", "keypoints of FLIRT's curvature, by re-weighted ICP"},
+       {Fitting::feature_icp, {}, Detector::flirt_curvature}},
+      {{"hector-full", "every point of the scan on a pyramid of grids, as HectorSLAM matches"},
+       {Fitting::hector}},
+      {{"hector-keypoints", "keypoints of FALKO on the pyramid"}, {Fitting::hector, PointsFrom::keypoints}},
+      {{"hector-regions", "the points around keypoints of FALKO on the pyramid"},
+       {Fitting::hector, PointsFrom::regions}},
+  }};
+  return all;
+}
 
 Error unknown_method(const std::string& name) {
   std::vector<std::string> names;
-  names.reserve(kMethods.size());
-  for (const Method& method : kMethods) names.push_back(method.name);
+  names.reserve(methods().size());
+  for (const Method& method : methods()) names.push_back(method.name);
   const std::string near = nearest_word(name, names);
   return {"method", "there is no method \"" + name + "\"",
-          near.empty() ? "`beaconless params` lists what there is" : "did you mean \"" + near + "\"?"};
+          near.empty() ? "`beaconless methods` lists what there is" : "did you mean \"" + near + "\"?"};
 }
 
-Result<std::unique_ptr<Localizer>> make_icp_full(const LocalizerConfig& config, const FloorPlan& plan) {
-  WallIndex walls(plan, config.icp.max_pair_distance_m);
-  if (walls.wall_count() == 0)
-    return Error{"map", "the floor plan has no walls", "a wall is two points or more"};
-  return std::unique_ptr<Localizer>(std::make_unique<IcpLocalizer<WallIndex>>(config, std::move(walls)));
-}
-
-Result<std::unique_ptr<Localizer>> make_icp_full(LocalizerConfig config, const OccupancyGrid& grid) {
+/// What a map's kind settles where the user has not.
+LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
+  const auto* grid = std::get_if<OccupancyGrid>(&map);
+  if (grid == nullptr) return config;
   // A wall drawn into cells is off by up to half a cell.
-  if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid.resolution_m / std::sqrt(12.0);
-  const bool chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
-  if (!chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid.resolution_m);
-  CellIndex cells(grid, config.icp.max_pair_distance_m);
-  if (cells.surface_count() == 0)
-    return Error{"map", "the grid has no occupied cell",
-                 "check occupied_thresh and negate of the map's YAML"};
-  return std::unique_ptr<Localizer>(std::make_unique<IcpLocalizer<CellIndex>>(config, std::move(cells)));
+  if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid->resolution_m / std::sqrt(12.0);
+  const bool is_chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
+  if (!is_chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid->resolution_m);
+  return config;
+}
+
+using Made = Result<std::unique_ptr<ScanMatcher>>;
+
+Made make_icp(const Recipe& recipe, const LocalizerConfig& config,
+              const std::shared_ptr<const SurfaceMap>& surfaces) {
+  ScanPoints points(recipe.points, recipe.detector, config.features.detectors, config.regions);
+  auto fit = [surfaces, icp = config.icp, scratch = IcpScratch{}](std::span<const Eigen::Vector2d> seen,
+                                                                  const Pose2& guess) mutable {
+    return match_icp(seen, *surfaces, guess, icp, scratch);
+  };
+  return Made(
+      std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit))));
+}
+
+Made make_feature_icp(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
+  auto features = build_feature_map(map, recipe.detector, config.features, config.feature_map);
+  if (!features) return features.error();
+  FeatureMatcherConfig matching{
+      .detector = recipe.detector, .detecting = config.features, .icp = config.feature_icp};
+  if (recipe.is_tracked) matching.tracking = config.tracking;
+  return Made(std::unique_ptr<ScanMatcher>(std::make_unique<FeatureMatcher>(matching, *std::move(features))));
+}
+
+Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
+  auto pyramid = std::visit([&](const auto& kind) { return build_pyramid(kind, config.pyramid); }, map);
+  if (!pyramid) return pyramid.error();
+  HectorConfig hector = config.hector;
+  if (recipe.points == PointsFrom::keypoints) hector.min_pairs = std::min(hector.min_pairs, kLeastKeypoints);
+  ScanPoints points(recipe.points, recipe.detector, config.features.detectors, config.regions);
+  auto fit = [levels = *std::move(pyramid), hector, scratch = HectorScratch{}](
+                 std::span<const Eigen::Vector2d> seen, const Pose2& guess) mutable {
+    return match_hector(seen, levels, guess, hector, scratch);
+  };
+  return Made(
+      std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit))));
+}
+
+Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
+                  const std::shared_ptr<const SurfaceMap>& surfaces) {
+  switch (recipe.fitting) {
+    case Fitting::feature_icp:
+      return make_feature_icp(recipe, config, map);
+    case Fitting::hector:
+      return make_hector(recipe, config, map);
+    case Fitting::icp:
+      break;
+  }
+  return make_icp(recipe, config, surfaces);
 }
 
 }  // namespace
 
 void describe(Fields& fields, LocalizerConfig& config) {
   Words names;
-  names.reserve(kMethods.size());
-  for (const Method& method : kMethods) names.push_back(method.name);
+  names.reserve(methods().size());
+  for (const Method& method : methods()) names.push_back(method.name);
   fields("method", config.method, names, "how a pose is found");
   fields("base_from_laser.x_m", config.base_from_laser.x_m, {-100.0, 100.0},
          "the laser's place ahead of the base");
   fields("base_from_laser.y_m", config.base_from_laser.y_m, {-100.0, 100.0}, "the laser's place to the left");
   fields("base_from_laser.theta_rad", config.base_from_laser.theta_rad, {-7.0, 7.0}, "the laser's heading");
   fields.section("icp", config.icp);
+  fields.section("feature_icp", config.feature_icp);
+  fields.section("feature_map", config.feature_map);
+  fields.section("tracking", config.tracking);
+  fields.section("pyramid", config.pyramid);
+  fields.section("hector", config.hector);
+  fields.section("regions", config.regions);
   fields.section("search", config.search);
   fields.section("motion", config.motion);
   fields.section("health", config.health);
+  fields.section("features", config.features);
 }
 
-std::span<const Method> methods() { return kMethods; }
+std::span<const Method> methods() {
+  static const std::vector<Method> all = [] {
+    std::vector<Method> list;
+    list.reserve(recipes().size());
+    for (const NamedRecipe& of : recipes()) list.push_back(of.method);
+    return list;
+  }();
+  return all;
+}
 
 Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config, const Map& map) {
-  const bool known =
-      std::any_of(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == config.method; });
-  if (!known) return unknown_method(config.method);
+  const auto named = std::find_if(recipes().begin(), recipes().end(),
+                                  [&](const NamedRecipe& of) { return of.method.name == config.method; });
+  if (named == recipes().end()) return unknown_method(config.method);
   if (auto checked = check_config(config); !checked) return checked.error();
-  return std::visit([&](const auto& kind) { return make_icp_full(config, kind); }, map);
+  const LocalizerConfig settled = for_map(config, map);
+  auto built = build_surface_map(map, settled.icp.max_pair_distance_m);
+  if (!built) return built.error();
+  const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
+  auto matcher = make_matcher(named->recipe, settled, map, surfaces);
+  if (!matcher) return matcher.error();
+  return std::unique_ptr<Localizer>(
+      std::make_unique<TrackingLocalizer>(settled, surfaces, *std::move(matcher)));
 }
 
 }  // namespace beaconless

@@ -221,4 +221,9 @@ MatchResult match_icp(std::span<const Eigen::Vector2d> points, const CellIndex& 
   return match(points, map, guess, config, scratch);
 }
 
+MatchResult match_icp(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const Pose2& guess,
+                      const IcpConfig& config, IcpScratch& scratch) {
+  return std::visit([&](const auto& index) { return match(points, index, guess, config, scratch); }, map);
+}
+
 }  // namespace beaconless

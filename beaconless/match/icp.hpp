@@ -7,8 +7,7 @@
 #include <Eigen/Core>
 
 #include "beaconless/core/describe.hpp"
-#include "beaconless/map/cell_index.hpp"
-#include "beaconless/map/wall_index.hpp"
+#include "beaconless/map/surface_map.hpp"
 #include "beaconless/match/match_result.hpp"
 #include "beaconless/match/robust_loss.hpp"
 
@@ -68,6 +67,8 @@ struct IcpScratch {
 MatchResult match_icp(std::span<const Eigen::Vector2d> points, const WallIndex& map, const Pose2& guess,
                       const IcpConfig& config, IcpScratch& scratch);
 MatchResult match_icp(std::span<const Eigen::Vector2d> points, const CellIndex& map, const Pose2& guess,
+                      const IcpConfig& config, IcpScratch& scratch);
+MatchResult match_icp(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const Pose2& guess,
                       const IcpConfig& config, IcpScratch& scratch);
 
 }  // namespace beaconless

@@ -105,4 +105,9 @@ std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, co
   return search(points, map, guess, config);
 }
 
+std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, const SurfaceMap& map,
+                                     const Pose2& guess, const LocalSearchConfig& config) {
+  return std::visit([&](const auto& index) { return search(points, index, guess, config); }, map);
+}
+
 }  // namespace beaconless

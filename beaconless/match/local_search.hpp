@@ -7,8 +7,7 @@
 #include <Eigen/Core>
 
 #include "beaconless/core/describe.hpp"
-#include "beaconless/map/cell_index.hpp"
-#include "beaconless/map/wall_index.hpp"
+#include "beaconless/map/surface_map.hpp"
 
 namespace beaconless {
 
@@ -42,6 +41,8 @@ struct StartPose {
 std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, const WallIndex& map,
                                      const Pose2& guess, const LocalSearchConfig& config);
 std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, const CellIndex& map,
+                                     const Pose2& guess, const LocalSearchConfig& config);
+std::vector<StartPose> search_around(std::span<const Eigen::Vector2d> points, const SurfaceMap& map,
                                      const Pose2& guess, const LocalSearchConfig& config);
 
 }  // namespace beaconless

@@ -20,12 +20,15 @@ concept RobustLoss = requires(const Loss& loss, double squared) {
   { loss.weight(squared) } -> std::same_as<double>;
   { loss.curvature(squared) } -> std::same_as<double>;
   { Loss::kEfficient95 } -> std::convertible_to<double>;
+  { Loss::kEfficient95InPlane } -> std::convertible_to<double>;
 };
 
 /// Quadratic near zero, linear beyond k: bounded influence, but every outlier keeps some.
 struct Huber {
   static constexpr double kEfficient95 =
       1.3453;  ///< 95 % as efficient as least squares on Gaussian residuals
+  static constexpr double kEfficient95InPlane =
+      1.5008;  ///< … when u is the length of a residual in the plane
   double k = kEfficient95;
 
   double rho(double squared) const {
@@ -38,6 +41,7 @@ struct Huber {
 /// Logarithmic: influence falls off slowly.
 struct Cauchy {
   static constexpr double kEfficient95 = 2.3849;
+  static constexpr double kEfficient95InPlane = 2.5486;
   double k = kEfficient95;
 
   double rho(double squared) const { return 0.5 * k * k * std::log1p(squared / (k * k)); }
@@ -50,6 +54,7 @@ struct Cauchy {
 /// Bi-weight: beyond k nothing counts. Needs a start that is nearly right.
 struct Tukey {
   static constexpr double kEfficient95 = 4.6851;
+  static constexpr double kEfficient95InPlane = 5.1230;
   double k = kEfficient95;
 
   double rho(double squared) const {
@@ -69,6 +74,7 @@ struct Tukey {
 /// Gaussian: like Tukey, smooth to infinity.
 struct Welsch {
   static constexpr double kEfficient95 = 2.9846;
+  static constexpr double kEfficient95InPlane = 3.2510;
   double k = kEfficient95;
 
   double rho(double squared) const { return -0.5 * k * k * std::expm1(-squared / (k * k)); }
@@ -79,6 +85,7 @@ struct Welsch {
 /// Rational: between Cauchy and Welsch.
 struct GemanMcClure {
   static constexpr double kEfficient95 = 3.7874;
+  static constexpr double kEfficient95InPlane = 4.0956;
   double k = kEfficient95;
 
   double rho(double squared) const { return 0.5 * k * k * squared / (k * k + squared); }
@@ -98,10 +105,14 @@ static_assert(RobustLoss<Huber> && RobustLoss<Cauchy> && RobustLoss<Tukey> && Ro
 /// The losses by name; `with_loss` turns a name into the type.
 enum class LossKind : int { huber, cauchy, tukey, welsch, geman_mcclure };
 
-/// Calls `use(loss)` with the loss of a kind. `k_sigma` 0 means its 95 % constant.
+/// What is weighted: a signed distance, or the length of a vector in the plane, which is larger by nature.
+enum class Residual : int { distance, in_plane };
+
+/// Calls `use(loss)` with the loss of a kind. `k_sigma` 0 means its 95 % constant for such residuals.
 template <class Use>
-decltype(auto) with_loss(LossKind kind, double k_sigma, Use&& use) {
+decltype(auto) with_loss(LossKind kind, double k_sigma, Use&& use, Residual residual = Residual::distance) {
   const auto make = [&]<RobustLoss Loss>(Loss loss) {
+    if (residual == Residual::in_plane) loss.k = Loss::kEfficient95InPlane;
     if (k_sigma > 0.0) loss.k = k_sigma;
     return loss;
   };

@@ -69,6 +69,27 @@ TYPED_TEST(RobustLossLaws, TheConstantIsNinetyFivePercentEfficient) {
   EXPECT_NEAR(slope * slope / psi_square, 0.95, 5e-5);
 }
 
+/// Of the length of a vector in the plane: with psi along it, V = (E psi² / 2) / (E[psi' + psi / u] / 2)²
+/// under the Rayleigh distribution.
+TYPED_TEST(RobustLossLaws, TheConstantInThePlaneIsNinetyFivePercentEfficient) {
+  TypeParam loss;
+  loss.k = TypeParam::kEfficient95InPlane;
+  double psi_square = 0.0;
+  double slope = 0.0;
+  for (const auto& [low, high] : {std::pair{0.0, loss.k}, {loss.k, 12.0}}) {
+    const int n = 40000;
+    const double h = (high - low) / n;
+    for (int i = 0; i <= n; ++i) {
+      const double u = i == 0 ? low + 1e-12 : i == n ? high - 1e-12 : low + i * h;
+      const double simpson = h / 3.0 * (i == 0 || i == n ? 1.0 : i % 2 == 1 ? 4.0 : 2.0);
+      const double density = u * std::exp(-0.5 * u * u);
+      psi_square += simpson * density * psi(loss, u) * psi(loss, u) / 2.0;
+      slope += simpson * density * (loss.curvature(u * u) + loss.weight(u * u)) / 2.0;
+    }
+  }
+  EXPECT_NEAR(slope * slope / psi_square, 0.95, 5e-5);
+}
+
 TEST(RobustLoss, TukeyAndWelschStopGrowing) {
   EXPECT_DOUBLE_EQ(Tukey{}.rho(1e6), Tukey{}.k * Tukey{}.k / 6.0);
   EXPECT_DOUBLE_EQ(Welsch{}.rho(1e6), Welsch{}.k * Welsch{}.k / 2.0);
@@ -79,6 +100,12 @@ TEST(RobustLoss, ByNameIsTheSameLoss) {
   EXPECT_EQ(with_loss(LossKind::tukey, 0.0, [](const auto& loss) { return loss.weight(4.0); }),
             Tukey{}.weight(4.0));
   EXPECT_EQ(with_loss(LossKind::cauchy, 1.0, [](const auto& loss) { return loss.weight(1.0); }), 0.5);
+  EXPECT_EQ(with_loss(
+                LossKind::huber, 0.0, [](const auto& loss) { return loss.k; }, Residual::in_plane),
+            Huber::kEfficient95InPlane);
+  EXPECT_EQ(with_loss(
+                LossKind::huber, 2.0, [](const auto& loss) { return loss.k; }, Residual::in_plane),
+            2.0);
 }
 
 }  // namespace

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/localize/tracking_localizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace beaconless {
+namespace {
+
+constexpr double kClearlyBetter = 0.05;  // in misfit, before another start is preferred to the prediction
+constexpr double kJumpSigma =
+    3.0;  // of the prediction; a larger correction is a jump, if also larger than the next two
+constexpr double kJump_m = 0.25;
+constexpr double kJump_rad = radians(8.0);
+constexpr double kCovered_m = 0.5;      // where fewer beams than the next share reach further than this …
+constexpr double kCoveredShare = 0.05;  // … anything fits anywhere
+constexpr double kLostWindow = 2.5;     // how much wider a lost robot searches
+constexpr std::size_t kChecks = 240;    // beams that check a pose: the share is then known to 3 %
+
+/// Two independent opinions on the same pose, each with its covariance.
+Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  const Eigen::Matrix3d ridge = 1e-12 * Eigen::Matrix3d::Identity();
+  return ((a + ridge).inverse() + (b + ridge).inverse()).inverse();
+}
+
+/// The error that the robot's own motion during a sweep leaves in a fit of the sweep as if it were taken at
+/// once: the fit is right for some moment of the sweep, half of it from the stamp on average.
+Eigen::Matrix3d sweep_covariance(const Pose2& map_from_base, const Twist2& twist_per_s, double sweep_time_s) {
+  const Twist2 half = (0.5 * sweep_time_s) * twist_per_s;
+  const Eigen::Vector2d moved = map_from_base.rotation() * Eigen::Vector2d(half.x_m, half.y_m);
+  const Eigen::Vector3d error(moved.x(), moved.y(), half.theta_rad);
+  return error * error.transpose();
+}
+
+/// What a fit that is not to be trusted may be off by: a cell or two, or the whole window that is searched.
+const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
+const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
+
+std::string_view reason_of(Status status, bool was_lost) {
+  if (status == Status::ok) return "";
+  if (status == Status::lost) return "the scan does not fit the map here";
+  return was_lost ? "a place that fits was found; more scans must agree"
+                  : "less of the scan lies on the map than is usual";
+}
+
+Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
+
+}  // namespace
+
+TrackingLocalizer::TrackingLocalizer(const LocalizerConfig& config, std::shared_ptr<const SurfaceMap> map,
+                                     std::unique_ptr<ScanMatcher> matcher)
+    : config_(config),
+      map_(std::move(map)),
+      matcher_(std::move(matcher)),
+      laser_from_base_(config.base_from_laser.inverse()),
+      motion_(config.motion),
+      health_(config.health) {}
+
+void TrackingLocalizer::start_at(const Pose2& map_from_base) {
+  if (!map_from_base.is_finite()) return;
+  motion_.start_at(map_from_base);
+  health_ = Health(config_.health);
+  matcher_->forget();
+  last_.map_from_base = map_from_base;
+  started_ = true;
+  first_scan_ = true;
+}
+
+PoseEstimate TrackingLocalizer::update(const Event& event) {
+  const Scan* scan = std::get_if<Scan>(&event);
+  if (scan == nullptr || !started_) {
+    PoseEstimate estimate = last_;
+    estimate.stamp = stamp_of(event);
+    estimate.status = started_ ? Status::not_a_scan : Status::not_started;
+    estimate.reason = started_ ? "the event brought no scan" : "no start pose was given";
+    return estimate;
+  }
+  // 1. Where the robot should be by its motion so far.
+  const Prediction prediction = motion_.predict(scan->stamp());
+  const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
+  // 2. What the laser saw.
+  load(*scan);
+  matcher_->observe(
+      *scan, guess,
+      moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser));
+  // 3. Fit it to the map from there.
+  MatchResult match = fit_from(guess);
+  // 4. Where that fit is hard to believe, fit from other starts too and take the best.
+  if (is_worth_searching(match, prediction)) match = try_other_starts(match, prediction);
+  // 5. Take the fit as the pose, or go on by the motion alone.
+  const std::string_view doubt = reason_to_coast(match, prediction);
+  last_ = doubt.empty() ? accept(match, prediction, *scan) : coast(prediction, scan->stamp(), doubt);
+  first_scan_ = false;
+  return last_;
+}
+
+bool TrackingLocalizer::is_worth_searching(const MatchResult& match, const Prediction& prediction) {
+  if (health_.lost() && health_.is_weak(match.on_map_ratio))
+    return lost_scans_++ % config_.search.lost_stride == 0;
+  lost_scans_ = 0;
+  if (first_scan_) return true;
+  // A matcher that has too little to hold on to needs no other start where the prediction is right.
+  if (!match.usable()) return health_.is_doubtful(fit_at(prediction).on_map_ratio);
+  return health_.is_doubtful(match.on_map_ratio) || is_jump(match, prediction);
+}
+
+std::string_view TrackingLocalizer::reason_to_coast(const MatchResult& match,
+                                                    const Prediction& prediction) const {
+  if (is_covered_)
+    return "the scanner seems to be covered: hardly a beam comes from further than half a metre";
+  if (!match.usable()) return matcher_->too_few_pairs();
+  if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
+    return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
+                                          : "the scan fits nowhere around the last trusted pose";
+  if (!first_scan_ && !health_.lost() && is_jump(match, prediction))
+    return "the scan fits nowhere near the predicted pose";
+  return {};
+}
+
+void TrackingLocalizer::load(const Scan& scan) {
+  points_.clear();
+  std::size_t far = 0;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (!scan.is_hit(beam)) continue;
+    points_.push_back(scan.point(beam));
+    far += static_cast<double>(scan.ranges_m()[beam]) > kCovered_m ? 1 : 0;
+  }
+  is_covered_ = static_cast<double>(far) < kCoveredShare * static_cast<double>(scan.size());
+}
+
+MatchResult TrackingLocalizer::fit_from(const Pose2& guess) {
+  MatchResult match = matcher_->match(guess);
+  if (!match.usable() || matcher_->judges_whole_scan()) return match;
+  // A dozen corners can fit a wrong place; beams from all around that then do not lie on the map tell.
+  const std::size_t stride = points_.size() / kChecks;
+  const MapFit fit = fit_to_map(points_, *map_, match.map_from_laser, config_.icp.on_map_m, stride);
+  match.on_map_ratio = fit.on_map_ratio;
+  match.misfit = fit.misfit;
+  return match;
+}
+
+MapFit TrackingLocalizer::fit_at(const Prediction& prediction) const {
+  return fit_to_map(points_, *map_, prediction.map_from_base * config_.base_from_laser, config_.icp.on_map_m);
+}
+
+bool TrackingLocalizer::is_jump(const MatchResult& match, const Prediction& prediction) const {
+  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
+  const double slack_m = kJumpSigma * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+  const double slack_rad = kJumpSigma * std::sqrt(prediction.covariance(2, 2));
+  return std::hypot(correction.x_m, correction.y_m) > std::max(kJump_m, slack_m) ||
+         std::abs(correction.theta_rad) > std::max(kJump_rad, slack_rad);
+}
+
+MatchResult TrackingLocalizer::try_other_starts(const MatchResult& first, const Prediction& prediction) {
+  LocalSearchConfig window = config_.search;
+  if (health_.lost()) {
+    window.window_m *= kLostWindow;
+    window.step_m *= 1.5;
+    window.window_deg = 180.0;
+    window.step_deg *= 2.0;
+  } else {
+    const double slack_m = 2.0 * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+    const double wider = std::clamp(slack_m / std::max(window.window_m, 1e-3), 1.0, kLostWindow);
+    window.window_m *= wider;
+    window.step_m *= std::sqrt(wider);
+  }
+  // While the robot is not lost, a place that it cannot have reached since the last scan is no answer,
+  // however well the scan fits there.
+  const bool anywhere = first_scan_ || health_.lost();
+  MatchResult best = first;
+  bool best_is_first = true;
+  if (!anywhere && is_jump(first, prediction)) best.misfit = 1.0;
+  const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
+  for (const StartPose& start : search_around(points_, *map_, guess, window)) {
+    const MatchResult other = fit_from(start.map_from_laser);
+    if (!other.usable() || (!anywhere && is_jump(other, prediction))) continue;
+    if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : 0.0)) continue;
+    best = other;
+    best_is_first = false;
+  }
+  return best;
+}
+
+PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Prediction& prediction,
+                                       const Scan& scan) {
+  PoseEstimate estimate;
+  estimate.stamp = scan.stamp();
+  estimate.map_from_base = match.map_from_laser * laser_from_base_;
+  estimate.covariance = moved_covariance(match.covariance, match.map_from_laser, laser_from_base_);
+  estimate.quality = match.on_map_ratio;
+  const bool was_lost = health_.lost();
+  // Found again means that the place holds from scan to scan.
+  if (was_lost && is_jump(match, prediction)) health_.forget_found();
+  estimate.status = health_.judge(match.on_map_ratio);
+  estimate.reason = reason_of(estimate.status, was_lost);
+  if (estimate.status != Status::ok) estimate.covariance += was_lost ? kLostCovariance : kWeakCovariance;
+  if (match.rank < 3) {
+    estimate.covariance = fused(estimate.covariance, prediction.covariance);
+    if (estimate.status == Status::ok) {
+      estimate.status = Status::degraded;
+      estimate.reason = "the walls in view leave a direction open, which is held at the prediction";
+    }
+  }
+  estimate.covariance =
+      symmetric(estimate.covariance +
+                sweep_covariance(estimate.map_from_base, prediction.twist_per_s, scan.sweep_time_s()));
+  if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
+    return coast(prediction, scan.stamp(), "the fit gave no finite pose");
+  motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
+  matcher_->settle(match);
+  return estimate;
+}
+
+PoseEstimate TrackingLocalizer::coast(const Prediction& prediction, Stamp stamp, std::string_view reason) {
+  PoseEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.map_from_base = prediction.map_from_base;
+  estimate.covariance = prediction.covariance;
+  // A pose that nothing corrects is never ok; it is not lost as long as the scan lies on the map there.
+  estimate.quality = health_.lost() || is_covered_ ? 0.0 : fit_at(prediction).on_map_ratio;
+  health_.judge(estimate.quality);
+  if (health_.lost()) estimate.covariance += kLostCovariance;
+  estimate.covariance = symmetric(estimate.covariance);
+  estimate.status = health_.lost() ? Status::lost : Status::degraded;
+  estimate.reason = reason;
+  return estimate;
+}
+
+}  // namespace beaconless

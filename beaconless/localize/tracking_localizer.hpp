@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "beaconless/localize/localizer.hpp"
+#include "beaconless/localize/localizer_config.hpp"
+#include "beaconless/localize/scan_matcher.hpp"
+#include "beaconless/map/surface_map.hpp"
+#include "beaconless/match/map_fit.hpp"
+
+namespace beaconless {
+
+/// Follows a robot from scan to scan: predicts, lets a ScanMatcher fit the scan, and judges what came of it.
+///
+/// Every method by name is this class with a matcher of its own. Source: dissertation 3.2 and 3.3; prediction
+/// from the last two poses. Differs: a sweep is fitted as if taken at once; what the robot's motion during it
+/// adds is put into the covariance. A fit that explains unusually little of the scan is tried again from the
+/// best poses around the prediction (search_around), because a robot that turns by 20° between two scans is
+/// outside the basin of any of the matchers. How much a fit explains is told by the whole scan, whatever
+/// part of it the matcher used.
+class TrackingLocalizer final : public Localizer {
+ public:
+  TrackingLocalizer(const LocalizerConfig& config, std::shared_ptr<const SurfaceMap> map,
+                    std::unique_ptr<ScanMatcher> matcher);
+
+  void start_at(const Pose2& map_from_base) override;
+  PoseEstimate update(const Event& event) override;
+
+ private:
+  void load(const Scan& scan);
+  MatchResult fit_from(const Pose2& guess);
+  MapFit fit_at(const Prediction& prediction) const;
+  bool is_jump(const MatchResult& match, const Prediction& prediction) const;
+  bool is_worth_searching(const MatchResult& match, const Prediction& prediction);
+  std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
+  MatchResult try_other_starts(const MatchResult& first, const Prediction& prediction);
+  PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan);
+  PoseEstimate coast(const Prediction& prediction, Stamp stamp, std::string_view reason);
+
+  LocalizerConfig config_;
+  std::shared_ptr<const SurfaceMap> map_;
+  std::unique_ptr<ScanMatcher> matcher_;
+  Pose2 laser_from_base_;
+  MotionFilter motion_;
+  Health health_;
+  std::vector<Eigen::Vector2d> points_;  // laser frame
+  PoseEstimate last_;
+  bool started_ = false;
+  bool first_scan_ = true;
+  bool is_covered_ = false;
+  int lost_scans_ = 0;
+};
+
+}  // namespace beaconless
