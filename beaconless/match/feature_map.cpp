@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
+#include "beaconless/geometry/angle.hpp"
 #include "beaconless/map/plan_corners.hpp"
+#include "beaconless/match/drawn_corners.hpp"
 
 namespace beaconless {
 namespace {
@@ -16,31 +19,24 @@ constexpr double kBucket_m = 1.0;
 bool is_of_walls(Detector detector) { return detector == Detector::corners || detector == Detector::rdp; }
 
 /// Those corners of a plan that the detector would not refuse for their angle or their walls.
-FeatureMap read_off(const FloorPlan& plan, Detector detector, const DetectorsConfig& detecting) {
+std::vector<PlanCorner> drawn_corners(const FloorPlan& plan, Detector detector,
+                                      const DetectorsConfig& detecting) {
   const bool vertices = detector == Detector::rdp;
   const double min_arm_m = vertices ? detecting.rdp.min_arm_m : detecting.corners.min_arm_m;
   const double min_angle_deg = vertices ? detecting.rdp.min_angle_deg : detecting.corners.min_angle_deg;
-  FeatureMap map;
-  for (const PlanCorner& corner : find_plan_corners(plan, {.min_angle_deg = std::min(89.0, min_angle_deg)}))
-    if (corner.arm_m >= min_arm_m)
-      map.features.push_back(
-          {corner.point, Eigen::Matrix2d::Zero(), corner.orientation_rad, corner.opening_rad});
-  map.evidence.resize(map.features.size());
-  return map;
+  std::vector<PlanCorner> corners = find_plan_corners(plan, {.min_angle_deg = std::min(89.0, min_angle_deg)});
+  std::erase_if(corners, [&](const PlanCorner& corner) { return corner.arm_m < min_arm_m; });
+  return corners;
 }
 
-/// What a detector finds from all over the free space.
-Result<FeatureMap> look_around(const RayCaster& walls, const OccupancyGrid* grid, Detector detector,
-                               const PointFeaturesConfig& detecting, const FeatureMapConfig& config) {
-  const std::vector<Pose2> views = choose_map_views(walls, grid, config.views);
-  if (views.empty())
-    return Error{"map", "there is no place in it that walls surround",
-                 "a smaller views.clearance_m may help; a grid needs free cells"};
+/// What a detector finds in sweeps from all views, in the map frame.
+std::vector<MapFind> look_around(const RayCaster& walls, std::span<const Pose2> views, Detector detector,
+                                 const PointFeaturesConfig& detecting, const MapViewsConfig& config) {
   std::vector<MapFind> finds;
   std::vector<PointFeature> found;
   PointFeaturesScratch scratch;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const Scan scan = look_at_map(walls, views[i], config.views);
+    const Scan scan = look_at_map(walls, views[i], config);
     find_point_features(scan, detector, detecting, scratch, found);
     for (PointFeature& feature : found) {
       const double range_m = feature.point.norm();
@@ -49,12 +45,7 @@ Result<FeatureMap> look_around(const RayCaster& walls, const OccupancyGrid* grid
       if (feature.point.allFinite()) finds.push_back({feature, static_cast<int>(i), range_m});
     }
   }
-  FeatureMap map;
-  for (const RepeatedFind& repeated : gather_repeated_finds(finds, views, walls, config.finds)) {
-    map.features.push_back(repeated.feature);
-    map.evidence.push_back(repeated.evidence);
-  }
-  return map;
+  return finds;
 }
 
 Error no_walls(const Map& map) {
@@ -62,6 +53,16 @@ Error no_walls(const Map& map) {
              ? Error{"map", "the floor plan has no walls", "a wall is two points or more"}
              : Error{"map", "the grid has no occupied cell",
                      "check occupied_thresh and negate of the map's YAML"};
+}
+
+Error no_room() {
+  return {"map", "there is no place in it that a robot could look around from",
+          "a smaller views.clearance_m may help; a grid needs free cells"};
+}
+
+Error nothing_found(Detector detector) {
+  return {"map", "it has no feature that the detector \"" + std::string(to_string(detector)) + "\" finds",
+          "use another detector, or a method that needs no features, as icp-full"};
 }
 
 }  // namespace
@@ -84,28 +85,33 @@ Result<FeatureMap> build_feature_map(const Map& map, Detector detector, const Po
   std::vector<Segment2> walls = plan.segments();
   if (walls.empty()) return no_walls(map);
 
-  // 2. Corners that are drawn need no looking for.
-  FeatureMap built;
-  if (grid == nullptr && is_of_walls(detector)) {
-    built = read_off(plan, detector, detecting.detectors);
-  } else {
-    auto seen = look_around(RayCaster(std::move(walls)), grid, detector, detecting, config);
-    if (!seen) return seen.error();
-    built = std::move(seen).value();
-  }
-  if (built.features.empty())
-    return Error{"map",
-                 "it has no features that the detector \"" + std::string(to_string(detector)) + "\" finds",
-                 "use a method that needs none, as icp-full, or another detector"};
+  // 2. What the detector finds of them from all over the free space.
+  const std::vector<PlanCorner> drawn = grid == nullptr && is_of_walls(detector)
+                                            ? drawn_corners(plan, detector, detecting.detectors)
+                                            : std::vector<PlanCorner>{};
+  const RayCaster rays(std::move(walls));
+  const std::vector<Pose2> views = choose_map_views(rays, grid, config.views);
+  if (views.empty() && drawn.empty()) return no_room();
+  const std::vector<MapFind> finds = look_around(rays, views, detector, detecting, config.views);
+  const ViewsInSight sight(views, rays);
+  std::vector<RepeatedFind> found = gather_repeated_finds(finds, sight, config.finds);
+  if (!drawn.empty())
+    found = prefer_drawn_corners(drawn, finds, found, sight, config.views.range_m, config.finds);
+  if (found.empty()) return nothing_found(detector);
 
   // 3. What is not known of their places.
   const double of_cells_m = grid != nullptr ? grid->resolution_m / std::sqrt(12.0) : 0.0;
   const double sigma_m = std::max(config.map_sigma_m > 0.0 ? config.map_sigma_m : of_cells_m, kLeastSigma_m);
+  FeatureMap built;
   std::vector<Eigen::Vector2d> points;
-  points.reserve(built.features.size());
-  for (PointFeature& feature : built.features) {
-    feature.covariance += sigma_m * sigma_m * Eigen::Matrix2d::Identity();
-    points.push_back(feature.point);
+  built.features.reserve(found.size());
+  built.evidence.reserve(found.size());
+  points.reserve(found.size());
+  for (RepeatedFind& find : found) {
+    find.feature.covariance += sigma_m * sigma_m * Eigen::Matrix2d::Identity();
+    built.features.push_back(find.feature);
+    built.evidence.push_back(find.evidence);
+    points.push_back(find.feature.point);
   }
   built.places = PointBuckets(points, kBucket_m);
   return built;

@@ -33,10 +33,11 @@ void describe(Fields& fields, FeatureMapConfig& config);
 
 /// The features of a map that a detector finds in scans taken there.
 ///
-/// Corners of a floor plan (for `corners` and `rdp`) are read off its walls. All else is looked at as a robot
-/// would: noise-free sweeps of a whole turn from places all over the free space go through the detector with
-/// the parameters it has for scans, and what is found at one place from many of them is a feature. A grid is
-/// looked at through the outlines of its cells (see outlines_of), so that corners lie better than a cell.
+/// The map is looked at as a robot would: noise-free sweeps of a whole turn from places all over its free
+/// space go through the detector with the parameters it has for scans, and what is found at one place from
+/// many of them is a feature. A grid is looked at through the outlines of its cells (see outlines_of), so
+/// that corners lie better than a cell. Corners of a floor plan (for `corners` and `rdp`) are then put where
+/// they are drawn.
 ///
 /// Out: covariance is the scatter of the finds plus the map's own error. Errors: a field outside of its
 /// range, a map without walls, no place to look from, nothing found; each names what else to try. Cost: views

@@ -13,11 +13,11 @@ namespace beaconless {
 
 /// From where and how a map is looked at.
 struct MapViewsConfig {
-  double step_m = 0.75;      ///< between neighbouring places, about; less where the map is small
+  double step_m = 0.4;       ///< between neighbouring places, about; less where the map is small
   double clearance_m = 0.3;  ///< no wall is nearer to them
   double range_m = 30.0;     ///< how far is looked
   double beam_deg = 0.25;    ///< between two beams; that of the scanner
-  int most = 2500;           ///< of larger maps the step is made larger
+  int most = 3000;           ///< of larger maps the step is made larger
 };
 
 void describe(Fields& fields, MapViewsConfig& config);

@@ -7,15 +7,17 @@
 
 #include "beaconless/geometry/angle.hpp"
 #include "beaconless/geometry/point_buckets.hpp"
+#include "beaconless/match/views_in_sight.hpp"
 
 namespace beaconless {
 namespace {
 
-constexpr int kShifts = 30;
-constexpr double kArrived_m = 1e-4;
+constexpr int kShifts = 20;
+constexpr double kArrived_share = 0.005;  // of the radius
+constexpr double kSettled_share = 0.75;   // finds this near to a mode need no climb of their own …
+constexpr double kPassed_share = 0.25;    // … nor do those this near to a climb's way
 constexpr double kOutlier_sigma = 2.5;
 constexpr double kLeastSpread_m = 1e-3;     // finds this near to the mean are no outliers
-constexpr double kInSight_m = 0.05;         // a wall this near before a feature is its own
 constexpr double kUsualRange_share = 0.75;  // of the finds are no farther than a view that should see one
 
 /// A place where finds are dense.
@@ -44,14 +46,16 @@ class Finds {
   }
 
   /// Climbs from a find to where finds are densest around it.
-  Mode climb(const MapFind& from) const {
-    Mode mode{from.feature.point, from.feature.orientation_rad, 0};
+  Mode climb(std::size_t from, std::vector<bool>& settled) const {
+    Mode mode{finds_[from].feature.point, finds_[from].feature.orientation_rad, 0};
+    settled[from] = true;
     for (int shift = 0; shift < kShifts; ++shift) {
       Eigen::Vector2d sum = Eigen::Vector2d::Zero();
       Eigen::Vector2d direction = Eigen::Vector2d::Zero();
       int count = 0;
       for_each_alike(mode, radius_m_, [&](std::size_t i) {
         const PointFeature& feature = finds_[i].feature;
+        if ((feature.point - mode.point).norm() <= kPassed_share * radius_m_) settled[i] = true;
         sum += feature.point;
         direction += Eigen::Vector2d(std::cos(feature.orientation_rad), std::sin(feature.orientation_rad));
         ++count;
@@ -62,7 +66,7 @@ class Finds {
       mode.point = mean;
       if (direction.norm() > 1e-9)
         mode.orientation_rad = wrap_angle(std::atan2(direction.y(), direction.x()));
-      if (moved < kArrived_m) break;
+      if (moved < kArrived_share * radius_m_) break;
     }
     return mode;
   }
@@ -104,9 +108,8 @@ std::vector<Mode> find_modes(Finds& finds, int min_views) {
   std::vector<bool> settled(finds.size(), false);
   for (std::size_t i = 0; i < finds.size(); ++i) {
     if (settled[i]) continue;
-    settled[i] = true;
-    Mode mode = finds.climb(finds[i]);
-    finds.for_each_alike(mode, 0.5 * finds.radius_m(), [&](std::size_t j) { settled[j] = true; });
+    Mode mode = finds.climb(i, settled);
+    finds.for_each_alike(mode, kSettled_share * finds.radius_m(), [&](std::size_t j) { settled[j] = true; });
     mode.views = finds.count_views(mode);
     if (mode.views >= min_views) modes.push_back(mode);
   }
@@ -157,32 +160,6 @@ RepeatedFind summary(const Finds& finds, std::vector<std::size_t>& members) {
   return found;
 }
 
-/// Judges a feature by the views that should see it.
-class Sight {
- public:
-  Sight(std::span<const Pose2> views, const RayCaster& walls) : views_(views), walls_(walls) {
-    std::vector<Eigen::Vector2d> places;
-    places.reserve(views.size());
-    for (const Pose2& view : views) places.push_back(view.translation());
-    near_ = PointBuckets(places, 2.0);
-  }
-
-  int views_that_see(const Eigen::Vector2d& point, double range_m) const {
-    int seen = 0;
-    near_.for_each_within(point, range_m, [&](std::size_t i) {
-      const Eigen::Vector2d way = point - views_[i].translation();
-      const double free_m = way.norm() - kInSight_m;
-      seen += free_m <= 0.0 || !walls_.cast(views_[i].translation(), way.normalized(), free_m) ? 1 : 0;
-    });
-    return seen;
-  }
-
- private:
-  std::span<const Pose2> views_;
-  const RayCaster& walls_;
-  PointBuckets near_;
-};
-
 }  // namespace
 
 void describe(Fields& fields, RepeatedFindsConfig& config) {
@@ -192,15 +169,24 @@ void describe(Fields& fields, RepeatedFindsConfig& config) {
   fields("min_views", config.min_views, {1, 10000}, "features found in fewer views are left out");
   fields("min_share", config.min_share, {0.0, 1.0},
          "features found in a smaller share of the views that see their place are left out");
+  fields("max_scatter_m", config.max_scatter_m, {0.0, 1.0},
+         "… as are those whose finds are spread out further than this");
 }
 
-std::vector<RepeatedFind> gather_repeated_finds(std::span<const MapFind> finds, std::span<const Pose2> views,
-                                                const RayCaster& walls, const RepeatedFindsConfig& config) {
+bool is_left_of(const RepeatedFind& p, const RepeatedFind& q) {
+  const Eigen::Vector2d& a = p.feature.point;
+  const Eigen::Vector2d& b = q.feature.point;
+  if (a.x() != b.x()) return a.x() < b.x();
+  if (a.y() != b.y()) return a.y() < b.y();
+  return p.feature.orientation_rad < q.feature.orientation_rad;
+}
+
+std::vector<RepeatedFind> gather_repeated_finds(std::span<const MapFind> finds, const ViewsInSight& views,
+                                                const RepeatedFindsConfig& config) {
   // 1. Where finds gather.
   Finds gathered(finds, views.size(), config);
   const std::vector<Mode> modes = find_modes(gathered, config.min_views);
   // 2. What they say together, and how many views miss them.
-  const Sight sight(views, walls);
   std::vector<RepeatedFind> repeated;
   std::vector<std::size_t> members;
   std::vector<double> ranges;
@@ -214,18 +200,13 @@ std::vector<RepeatedFind> gather_repeated_finds(std::span<const MapFind> finds, 
     const double range_m = quantile(ranges, kUsualRange_share);
     const auto near = std::count_if(ranges.begin(), ranges.end(), [&](double r) { return r <= range_m; });
     RepeatedFind found = summary(gathered, members);
-    const int seen = std::max(1, sight.views_that_see(found.feature.point, range_m));
+    const int seen = std::max(1, views.that_see(found.feature.point, range_m));
     found.evidence.found_views = mode.views;
     found.evidence.share = std::min(1.0, static_cast<double>(near) / seen);
-    if (found.evidence.share >= config.min_share) repeated.push_back(found);
+    if (found.evidence.share >= config.min_share && found.evidence.scatter_m <= config.max_scatter_m)
+      repeated.push_back(found);
   }
-  std::sort(repeated.begin(), repeated.end(), [](const RepeatedFind& p, const RepeatedFind& q) {
-    const Eigen::Vector2d& a = p.feature.point;
-    const Eigen::Vector2d& b = q.feature.point;
-    if (a.x() != b.x()) return a.x() < b.x();
-    if (a.y() != b.y()) return a.y() < b.y();
-    return p.feature.orientation_rad < q.feature.orientation_rad;
-  });
+  std::sort(repeated.begin(), repeated.end(), is_left_of);
   return repeated;
 }
 
