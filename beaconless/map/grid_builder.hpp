@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "beaconless/core/describe.hpp"
 #include "beaconless/core/result.hpp"
 #include "beaconless/geometry/pose2.hpp"
+#include "beaconless/map/log_odds_grid.hpp"
 #include "beaconless/map/occupancy_grid.hpp"
 #include "beaconless/scan/scan.hpp"
 
@@ -31,11 +30,7 @@ void describe(Fields& fields, GridBuilderConfig& config);
 /// Makes an occupancy grid of scans taken at known poses: cells where beams end gather evidence for an
 /// obstacle, cells on the way gather evidence against one.
 ///
-/// Source: log-odds update l += logit(p), Moravec and Elfes 1985; dissertation, Algorithm 8 and what follows
-/// it. One update of a cell a scan, with ends winning over ways: Kohlbrecher et al. 2011 (HectorSLAM).
-/// Differs: exact traversal (Amanatides and Woo) in place of Bresenham, which skips cells; log-odds are
-/// counted in 1/1024, so that the order of the scans does not matter (while no cell is at a limit) and the
-/// same bits come twice.
+/// Source: see LogOddsGrid, which gathers the evidence.
 class GridBuilder {
  public:
   /// Errors: a value of the config that is not allowed (see describe).
@@ -50,47 +45,17 @@ class GridBuilder {
   /// What is known so far, cropped to the cells that were seen; its lower left corner is a whole number of
   /// cells from the map's origin. Percent are rounded probabilities; cells never seen are unknown. Empty
   /// before the first scan.
-  OccupancyGrid grid() const;
+  OccupancyGrid grid() const { return cells_.grid(); }
 
   static constexpr std::int64_t kMaxCells = 400'000'000;
 
  private:
-  /// Log-odds in 1/1024, and the last scan that touched the cell: 0 for never, see mark_ below.
-  struct CellState {
-    std::int16_t log_odds = 0;
-    std::uint16_t mark = 0;
-  };
-  /// Cells from `low` (in) to `high` (out), counted from the map's origin.
-  struct Box {
-    Cell low;
-    Cell high;
-
-    std::int64_t width() const { return std::int64_t{high.x} - low.x; }
-    std::int64_t height() const { return std::int64_t{high.y} - low.y; }
-    std::int64_t cells() const { return width() * height(); }
-  };
-  /// One beam on the grid: the point up to which its way is free, and whether something stands there.
-  struct Way {
-    Eigen::Vector2d end_cells;
-    bool hit;
-  };
-
-  GridBuilder() = default;
-
-  std::vector<Way> ways_of(const Scan& scan, const Pose2& map_from_laser) const;
-  Result<Done> grow_to(const Box& needed);
-  void begin_scan();
-  CellState& at(Cell cell);
-  void update(Cell cell, int log_odds, std::uint16_t mark);
+  GridBuilder(const GridBuilderConfig& config, const LogOddsModel& model)
+      : config_(config), cells_(config.resolution_m, model, kMaxCells) {}
 
   GridBuilderConfig config_;
-  int hit_ = 0;   ///< what a hit adds, in 1/1024
-  int miss_ = 0;  ///< what a way through adds
-  int low_ = 0;
-  int high_ = 0;
-  std::uint16_t mark_ = 1;  ///< of the free cells of this scan; its occupied cells have mark_ + 1
-  Box box_;
-  std::vector<CellState> cells_;
+  LogOddsGrid cells_;
+  std::vector<BeamWay> ways_;  ///< of the last scan
 };
 
 }  // namespace beaconless
