@@ -14,7 +14,17 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
       ->required();
   command->add_option("--map", words->map, "The map: floor plan YAML, or map_server YAML")->required();
   command->add_option("--out", words->out, "Folder for trajectory, estimates, config, report and summary");
-  command->add_option("--method", words->method, "How (see beaconless params)");
+  command->add_option("--method", words->method, "How (see beaconless methods)");
+  command->add_option("--preset", words->preset,
+                      "Whose parameters the feature detectors have: beaconless, authors, dissertation");
+  command
+      ->add_option("--line-fit", words->line_fit,
+                   "How lines are fitted before they make corners: lsf, ransac, theil-sen, tls")
+      ->check(CLI::IsMember({"lsf", "ransac", "theil-sen", "tls"}));
+  command
+      ->add_option("--loss", words->loss,
+                   "Robust criterion of ICP: huber, cauchy, tukey, welsch, geman-mcclure")
+      ->check(CLI::IsMember({"huber", "cauchy", "tukey", "welsch", "geman-mcclure"}));
   command->add_option("--start", words->start, "Start pose of the base, x,y,deg");
   command->add_option("--start-from", words->start_from,
                       "Start pose from a TUM file, or 'recorded': from the recording");
@@ -25,7 +35,7 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Which poses 'recorded' means, where there are several");
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
-  command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m] (icp.sigma_m)")
+  command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")
       ->check(not_positive, "NUMBER > 0");
   command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
       ->check(CLI::IsMember({"first", "middle", "last"}))

@@ -57,7 +57,18 @@ int params(const Console& console, bool markdown, bool features) {
   return exit_good;
 }
 
+int list_methods(const Console& console) {
+  for (const Method& method : methods()) console.say(fmt::format("{:<20} {}", method.name, method.sentence));
+  console.result({{"methods", names_of(methods())}});
+  return exit_good;
+}
+
 }  // namespace
+
+void add_methods(CLI::App& app, Console& console, int& exit_code) {
+  auto* command = app.add_subcommand("methods", "List the methods of `localize --method`");
+  command->callback([&console, &exit_code] { exit_code = list_methods(console); });
+}
 
 void add_params(CLI::App& app, Console& console, int& exit_code) {
   auto* command = app.add_subcommand("params", "List every parameter with its default, range and meaning");

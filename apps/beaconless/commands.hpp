@@ -18,6 +18,7 @@ void add_info(CLI::App& app, Console& console, int& exit_code);
 void add_doctor(CLI::App& app, Console& console, int& exit_code);
 void add_features(CLI::App& app, Console& console, int& exit_code);
 void add_params(CLI::App& app, Console& console, int& exit_code);
+void add_methods(CLI::App& app, Console& console, int& exit_code);
 void add_demo(CLI::App& app, Console& console, int& exit_code);
 
 }  // namespace beaconless::cli

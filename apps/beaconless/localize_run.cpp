@@ -29,6 +29,21 @@ Result<Done> check_config_file(const std::string& path) {
                "a config is lines of `parameter: value`"};
 }
 
+/// The options that stand for parameters, as those.
+std::vector<std::string> shorthands(const LocalizeWords& words) {
+  std::vector<std::string> set;
+  if (!words.line_fit.empty())
+    set.push_back("features.corners.lines.fit.method=" +
+                  std::string(words.line_fit == "lsf" ? "regression" : words.line_fit));
+  if (!words.loss.empty())
+    for (const char* name : {"icp.loss", "feature_icp.loss"}) set.push_back(name + ("=" + words.loss));
+  if (words.sigma_m > 0.0)
+    for (const char* name : {"icp.sigma_m", "hector.sigma_m", "features.corners.lines.sigma_m",
+                             "features.falko.sigma_m", "features.rdp.segmentation.sigma_m"})
+      set.push_back(fmt::format("{}={}", name, words.sigma_m));
+  return set;
+}
+
 /// The run's configuration: defaults, then the file, then the options, then each --set.
 Result<LocalizerConfig> config_of(const LocalizeWords& words) {
   LocalizerConfig config;
@@ -36,7 +51,12 @@ Result<LocalizerConfig> config_of(const LocalizeWords& words) {
   if (!words.config.empty())
     if (auto read = io::read_config(words.config, fields); !read) return read.error();
   if (!words.method.empty()) config.method = words.method;
-  if (words.sigma_m > 0.0) config.icp.sigma_m = words.sigma_m;
+  if (!words.preset.empty()) {
+    const auto preset = detectors_preset(words.preset);
+    if (!preset) return preset.error();
+    config.features.detectors = *preset;
+  }
+  if (auto set = set_parameters(fields, shorthands(words)); !set) return set.error();
   if (!words.base_from_laser.empty()) {
     const auto pose = pose_from_words("--base-from-laser", words.base_from_laser);
     if (!pose) return pose.error();

@@ -15,6 +15,9 @@ struct LocalizeWords {
   std::string map;
   ScanWords scan;
   std::string method;
+  std::string preset;
+  std::string line_fit;
+  std::string loss;
   std::string base_from_laser;
   std::string start;
   std::string start_from;

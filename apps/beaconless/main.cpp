@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   add_info(app, console, exit_code);
   add_doctor(app, console, exit_code);
   add_features(app, console, exit_code);
+  add_methods(app, console, exit_code);
   add_params(app, console, exit_code);
   add_demo(app, console, exit_code);
 
