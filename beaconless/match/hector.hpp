@@ -2,44 +2,52 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "beaconless/core/describe.hpp"
 #include "beaconless/map/occupancy_pyramid.hpp"
+#include "beaconless/match/hector_sums.hpp"
 #include "beaconless/match/match_result.hpp"
 
 namespace beaconless {
 
-/// Gauss-Newton on an occupancy pyramid: how long and how far.
+/// The HectorSLAM matcher: how many steps, how long, and what they may use.
 struct HectorConfig {
-  int coarse_iterations = 4;    ///< steps on each level but the finest; hector_slam's 1 + 3
-  int fine_iterations = 6;      ///< steps on the finest level; hector_slam's 1 + 5
-  double max_turn_rad = 0.2;    ///< of one step
-  double max_step_cells = 2.0;  ///< of one step, in cells of its level
-  double damping = 1e-3;        ///< added to the diagonal of H, as a share of it
-  double converged_m = 0.0;  ///< a shorter step ends a level, if it also turns little; 0: all steps are taken
-  double converged_rad = 1e-6;         ///< a smaller turn ends a level, if it also moves little
-  double sigma_m = 0.01;               ///< range noise of the laser; no residual is believed to be smaller
-  double unobservable_sigma_m = 0.25;  ///< a direction less certain than this is held at the guess
-  double on_map_m = 0.10;              ///< a point this near to a wall counts as explained by the map
-  int min_pairs = 12;                  ///< fewer points near walls make no match
+  int coarse_iterations = 4;    ///< steps on every level but the finest; hector_slam's 1 + 3
+  int fine_iterations = 6;      ///< steps on the finest; hector_slam's 1 + 5
+  bool stops_early = false;     ///< a level ends when a step is below the next two; else all steps are taken
+  double converged_m = 1e-4;    ///< a match converged if its last step moved the laser less than this …
+  double converged_rad = 1e-4;  ///< … and turned it less than this
+  double max_turn_rad = 0.2;    ///< in one step
+  double max_step_cells = 2.0;  ///< in one step, of its level's cells
+  double sigma_m = 0.01;        ///< range noise of the laser; residuals are not believed to be smaller
+  double least_share = 0.03;    ///< a direction that fewer of the points hold is held at the guess
+  double on_map_m = 0.10;       ///< a point this near to a wall counts as explained by the map
+  int min_pairs = 12;           ///< fewer points near walls make no match
 };
 
 void describe(Fields& fields, HectorConfig& config);
 
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct HectorScratch {
-  std::vector<float> x_m;  ///< the points that can be used, padded to whole lanes
-  std::vector<float> y_m;
+  HectorPoints points;
 };
 
-/// Fits the points of a scan onto an occupancy pyramid, from a guess nearby.
+/// Fits the points of a scan onto a map of cells, from a guess nearby: Gauss-Newton on Σ (1 - M)², from the
+/// coarsest level to the finest.
 ///
-/// In: points in the laser frame (m). Out: map_from_laser with covariance. Minimises Σ (1 - M(T p))² by
-/// Gauss-Newton, coarse to fine. Cost: points x steps x one load; see bench/hector_bench. Status:
-/// too_few_pairs leaves the guess; never throws, never NaN.
+/// In: points in the laser frame (m). Out: map_from_laser with covariance σ² H⁻¹ in metres and radians, where
+/// σ is the largest of sigma_m and the residuals met, and the map's wall_sigma_m is added. Points further
+/// than a cell or two from every wall pull on nothing, which is all the robustness there is, and needs no
+/// more: people are such points. Cost: points x steps x one load; see bench/hector_bench. Status:
+/// too_few_pairs leaves the guess (no pose for one that is not finite); never throws, never NaN.
+///
+/// Source: Kohlbrecher et al., SSRR 2011; dissertation 2.4.2. Differs: (1) printed there, H lacks the sum
+/// over the points; (2) hector_slam's slope of M is wrong beside oblique walls, see sum_hector(); (3) it
+/// publishes H as the covariance, in cells; (4) it solves with whatever H it finds, and in a corridor runs
+/// along the axis: here directions that few points hold are left at the guess (holds_along in the .cpp says
+/// how that is told from the ripple of drawn walls); (5) M, see OccupancyLevel and wall_value().
 MatchResult match_hector(std::span<const Eigen::Vector2d> points, const OccupancyPyramid& map,
                          const Pose2& guess, const HectorConfig& config, HectorScratch& scratch);
 
