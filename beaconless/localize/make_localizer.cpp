@@ -15,7 +15,8 @@
 namespace beaconless {
 namespace {
 
-constexpr int kLeastKeypoints = 3;  // three on different walls make a pose; a scan has a dozen at most
+constexpr int kLeastPoints = 8;      // of the crosses of two keypoints
+constexpr double kDrawnArm_m = 0.4;  // longer than those of a scan, which may be off by the difference
 
 /// What the scan is fitted by.
 enum class Fitting { icp, feature_icp, hector };
@@ -104,11 +105,27 @@ Made make_feature_icp(const Recipe& recipe, const LocalizerConfig& config, const
   return Made(std::unique_ptr<ScanMatcher>(std::make_unique<FeatureMatcher>(matching, *std::move(features))));
 }
 
-Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
-  auto pyramid = std::visit([&](const auto& kind) { return build_pyramid(kind, config.pyramid); }, map);
+/// The features of a map, each drawn as a cross: on walls a keypoint could slide along.
+Result<Map> crosses_of(Detector detector, const LocalizerConfig& config, const Map& map) {
+  const auto features = build_feature_map(map, detector, config.features, config.feature_map);
+  if (!features) return features.error();
+  FloorPlan crosses;
+  crosses.walls.reserve(2 * features->features.size());
+  for (const PointFeature& feature : features->features) {
+    for (const Eigen::Vector2d& arm : cross_arms(feature.orientation_rad, kDrawnArm_m))
+      crosses.walls.push_back({feature.point - arm, feature.point + arm});
+  }
+  return Map(std::move(crosses));
+}
+
+Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map& whole_map) {
+  const bool is_of_keypoints = recipe.points == PointsFrom::keypoints;
+  const auto map = is_of_keypoints ? crosses_of(recipe.detector, config, whole_map) : Result<Map>(whole_map);
+  if (!map) return map.error();
+  auto pyramid = std::visit([&](const auto& kind) { return build_pyramid(kind, config.pyramid); }, *map);
   if (!pyramid) return pyramid.error();
   HectorConfig hector = config.hector;
-  if (recipe.points == PointsFrom::keypoints) hector.min_pairs = std::min(hector.min_pairs, kLeastKeypoints);
+  if (is_of_keypoints) hector.min_pairs = std::min(hector.min_pairs, kLeastPoints);
   ScanPoints points(recipe.points, recipe.detector, config.features.detectors, config.regions);
   auto fit = [levels = *std::move(pyramid), hector, scratch = HectorScratch{}](
                  std::span<const Eigen::Vector2d> seen, const Pose2& guess) mutable {

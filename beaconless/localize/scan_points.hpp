@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -14,9 +15,15 @@ namespace beaconless {
 /// Which points of a scan are fitted to the map.
 enum class PointsFrom : int {
   whole_scan,  ///< every beam that hit something
-  keypoints,   ///< what a detector found
+  keypoints,   ///< what a detector found, each as the four ends of a cross
   regions,     ///< the beams around what a detector found
 };
+
+/// The arms of the cross that stands for a keypoint, in a scan and in a map of keypoints alike.
+///
+/// A grid matcher sees how far a point is from a wall, one number a point, and so little of where along the
+/// wall it is; the ends of a cross tell both.
+std::array<Eigen::Vector2d, 2> cross_arms(double orientation_rad, double length_m);
 
 /// Takes points from scans, one kind of them. Source: dissertation 3.3.1 and the three approaches of 4.5.
 class ScanPoints {

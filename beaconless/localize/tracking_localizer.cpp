@@ -115,8 +115,11 @@ std::string_view TrackingLocalizer::reason_to_coast(const MatchResult& match,
   if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
     return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
                                           : "the scan fits nowhere around the last trusted pose";
-  if (!first_scan_ && !health_.lost() && is_jump(match, prediction))
-    return "the scan fits nowhere near the predicted pose";
+  if (first_scan_ || health_.lost()) return {};
+  if (is_jump(match, prediction)) return "the scan fits nowhere near the predicted pose";
+  if (!matcher_->judges_whole_scan() && match.misfit > kClearlyBetter &&
+      match.misfit > fit_at(prediction).misfit + kClearlyBetter)
+    return "the features fit, but the rest of the scan fits the predicted pose far better";
   return {};
 }
 
