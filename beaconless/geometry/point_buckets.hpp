@@ -13,7 +13,8 @@ namespace beaconless {
 /// Finds the points around a place, exactly, among many that do not change.
 ///
 /// Points that are not finite are never found. Cost: O(n) time and memory however far apart the points lie:
-/// buckets are made larger than asked where there would be more than about four a point.
+/// buckets are made larger than asked where there would be more than some twelve a point, and up to 2 % of
+/// the points may lie far out on either side without making them so.
 class PointBuckets {
  public:
   PointBuckets() = default;

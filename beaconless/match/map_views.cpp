@@ -28,7 +28,9 @@ struct Bounds {
 Bounds bounds_of(const RayCaster& walls) {
   Bounds bounds;
   for (const Segment2& wall : walls.segments()) {
-    if (!wall.a.allFinite() || !wall.b.allFinite()) continue;
+    if (!(wall.a.cwiseAbs().maxCoeff() <= RayCaster::kFarthest_m) ||
+        !(wall.b.cwiseAbs().maxCoeff() <= RayCaster::kFarthest_m))
+      continue;
     bounds.low = bounds.low.cwiseMin(wall.a).cwiseMin(wall.b);
     bounds.high = bounds.high.cwiseMax(wall.a).cwiseMax(wall.b);
   }
@@ -107,7 +109,7 @@ std::vector<Pose2> choose_map_views(const RayCaster& walls, const OccupancyGrid*
   std::vector<Pose2> poses = enclosed(lattice(walls, grid, bounds, step_m, config.clearance_m));
   // 2. A narrower one where there are few: small rooms, or walls around little of the bounds.
   while (poses.size() < kFewest && 0.5 * step_m >= kLeastStep_m &&
-         extent.x() * extent.y() < 4.0 * config.most * step_m * step_m) {
+         extent.x() * extent.y() <= config.most * step_m * step_m) {
     step_m *= 0.5;
     poses = enclosed(lattice(walls, grid, bounds, step_m, config.clearance_m));
   }

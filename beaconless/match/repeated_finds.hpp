@@ -19,8 +19,8 @@ struct MapFind {
 
 /// On what a feature of a map rests.
 struct FeatureEvidence {
-  int found_views = 0;     ///< views of the map that it was found in; 0 where it was read off a plan
-  double share = 1.0;      ///< … of those that see its place, no farther than most of the finds
+  int found_views = 0;     ///< views of the map that it was found in; may be 0 for a corner that is drawn
+  double share = 1.0;      ///< … of those that see its place from no farther than most; 1 for drawn corners
   double scatter_m = 0.0;  ///< root mean square distance of the finds from their mean
 };
 
