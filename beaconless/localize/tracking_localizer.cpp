@@ -88,11 +88,19 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
       moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser));
   // 3. Fit it to the map from there.
   MatchResult match = fit_from(guess);
-  // 4. Where that fit is hard to believe, fit from other starts too and take the best.
-  if (is_worth_searching(match, prediction)) match = try_other_starts(match, prediction);
-  // 5. Take the fit as the pose, or go on by the motion alone.
+  std::optional<MatchResult> whole_scan;
+  // 4. Where that fit is hard to believe, fit from other starts too and take the best; where the method gets
+  //    nowhere from any of them, let the whole scan tell.
+  if (is_worth_searching(match, prediction)) {
+    const std::vector<StartPose> starts = starts_around(prediction);
+    match = best_of(starts, match, prediction, [&](const Pose2& start) { return fit_from(start); });
+    if (!reason_to_coast(match, prediction).empty()) whole_scan = fit_whole_scan(starts, prediction);
+  }
+  // 5. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
   const std::string_view doubt = reason_to_coast(match, prediction);
-  last_ = doubt.empty() ? accept(match, prediction, *scan) : coast(prediction, scan->stamp(), doubt);
+  last_ = doubt.empty() ? accept(match, prediction, *scan)
+          : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
+                        : coast(prediction, scan->stamp(), doubt);
   first_scan_ = false;
   return last_;
 }
@@ -157,7 +165,7 @@ bool TrackingLocalizer::is_jump(const MatchResult& match, const Prediction& pred
          std::abs(correction.theta_rad) > std::max(kJump_rad, slack_rad);
 }
 
-MatchResult TrackingLocalizer::try_other_starts(const MatchResult& first, const Prediction& prediction) {
+std::vector<StartPose> TrackingLocalizer::starts_around(const Prediction& prediction) const {
   LocalSearchConfig window = config_.search;
   if (health_.lost()) {
     window.window_m *= kLostWindow;
@@ -170,20 +178,35 @@ MatchResult TrackingLocalizer::try_other_starts(const MatchResult& first, const 
     window.window_m *= wider;
     window.step_m *= std::sqrt(wider);
   }
+  return search_around(points_, *map_, prediction.map_from_base * config_.base_from_laser, window);
+}
+
+template <class Fit>
+MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const MatchResult& first,
+                                       const Prediction& prediction, const Fit& fit) {
   // While the robot is not lost, a place that it cannot have reached since the last scan is no answer,
   // however well the scan fits there.
   const bool anywhere = first_scan_ || health_.lost();
   MatchResult best = first;
   bool best_is_first = true;
   if (!anywhere && is_jump(first, prediction)) best.misfit = 1.0;
-  const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
-  for (const StartPose& start : search_around(points_, *map_, guess, window)) {
-    const MatchResult other = fit_from(start.map_from_laser);
+  for (const StartPose& start : starts) {
+    const MatchResult other = fit(start.map_from_laser);
     if (!other.usable() || (!anywhere && is_jump(other, prediction))) continue;
     if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : 0.0)) continue;
     best = other;
     best_is_first = false;
   }
+  return best;
+}
+
+std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const StartPose> starts,
+                                                             const Prediction& prediction) {
+  if (matcher_->judges_whole_scan() || is_covered_) return std::nullopt;
+  const MatchResult best = best_of(starts, MatchResult{}, prediction, [&](const Pose2& start) {
+    return match_icp(points_, *map_, start, config_.icp, scratch_);
+  });
+  if (!reason_to_coast(best, prediction).empty()) return std::nullopt;
   return best;
 }
 
@@ -214,6 +237,15 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
   motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
   matcher_->settle(match);
+  return estimate;
+}
+
+PoseEstimate TrackingLocalizer::stand_in(const MatchResult& whole_scan, const Prediction& prediction,
+                                         const Scan& scan) {
+  PoseEstimate estimate = accept(whole_scan, prediction, scan);
+  if (estimate.status != Status::ok) return estimate;
+  estimate.status = Status::degraded;
+  estimate.reason = "the method finds no pose here; this one is that of the whole scan against the walls";
   return estimate;
 }
 

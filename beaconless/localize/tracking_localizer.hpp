@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -19,8 +21,9 @@ namespace beaconless {
 /// from the last two poses. Differs: a sweep is fitted as if taken at once; what the robot's motion during it
 /// adds is put into the covariance. A fit that explains unusually little of the scan is tried again from the
 /// best poses around the prediction (search_around), because a robot that turns by 20° between two scans is
-/// outside the basin of any of the matchers. How much a fit explains is told by the whole scan, whatever
-/// part of it the matcher used.
+/// outside the basin of any of the matchers; where a matcher of features gets nowhere from those either, the
+/// whole scan stands in for it and the status is degraded. How much a fit explains is told by the whole scan,
+/// whatever part of it the matcher used.
 class TrackingLocalizer final : public Localizer {
  public:
   TrackingLocalizer(const LocalizerConfig& config, std::shared_ptr<const SurfaceMap> map,
@@ -36,8 +39,13 @@ class TrackingLocalizer final : public Localizer {
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
   bool is_worth_searching(const MatchResult& match, const Prediction& prediction);
   std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
-  MatchResult try_other_starts(const MatchResult& first, const Prediction& prediction);
+  std::vector<StartPose> starts_around(const Prediction& prediction) const;
+  template <class Fit>
+  MatchResult best_of(std::span<const StartPose> starts, const MatchResult& first,
+                      const Prediction& prediction, const Fit& fit);
+  std::optional<MatchResult> fit_whole_scan(std::span<const StartPose> starts, const Prediction& prediction);
   PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan);
+  PoseEstimate stand_in(const MatchResult& whole_scan, const Prediction& prediction, const Scan& scan);
   PoseEstimate coast(const Prediction& prediction, Stamp stamp, std::string_view reason);
 
   LocalizerConfig config_;
@@ -46,6 +54,7 @@ class TrackingLocalizer final : public Localizer {
   Pose2 laser_from_base_;
   MotionFilter motion_;
   Health health_;
+  IcpScratch scratch_;
   std::vector<Eigen::Vector2d> points_;  // laser frame
   PoseEstimate last_;
   bool started_ = false;
