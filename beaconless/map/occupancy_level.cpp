@@ -34,6 +34,16 @@ std::uint8_t OccupancyLevel::byte(Cell cell) const {
   return has_room(cell) ? static_cast<std::uint8_t>(stencils_[place(cell)]) : kUnknown;
 }
 
+bool OccupancyLevel::is_near_obstacle(Cell cell) const {
+  if (cell.x < low_.x - 1 || cell.y < low_.y - 1 || cell.x > high_.x || cell.y > high_.y) return false;
+  const std::uint32_t four = stencils_[place(cell)];
+  for (const int shift : {kOwn, kRight, kUpper, kUpperRight}) {
+    const std::uint32_t value = (four >> shift) & 0xffU;
+    if (value != 0 && value != kUnknown) return true;
+  }
+  return false;
+}
+
 void OccupancyLevel::put(Cell cell, std::uint8_t value) {
   if (!has_room(cell)) return;
   const auto write = [&](std::size_t word, int shift) {

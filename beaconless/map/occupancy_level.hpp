@@ -59,6 +59,9 @@ class OccupancyLevel {
   Cell low() const { return low_; }    ///< the first cell that has room
   Cell high() const { return high_; }  ///< the last one
 
+  /// Whether M is above 0 somewhere between the middles of this cell and the next to the right and above.
+  bool is_near_obstacle(Cell cell) const;
+
   /// Row by row, from cell low() - (2, 2) to high() + (1, 1): the values of the cell (lowest byte), its
   /// right, upper and upper right neighbour, in steps; kUnknown where unknown. The first and last rows and
   /// columns are unknown throughout, so that a point outside may be moved there.

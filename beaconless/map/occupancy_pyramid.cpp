@@ -20,7 +20,7 @@ constexpr double kFarthest_m = 1e6;
 
 // What drawing moves walls by at an oblique heading: what poses in simulated rooms err by, less what noise
 // does.
-constexpr double kObliqueSigma_cells = 0.02;
+constexpr double kObliqueSigma_cells = 0.005;
 
 void raise(OccupancyLevel& level, Cell cell, double value) {
   if (value > level.value(cell)) level.set(cell, value);

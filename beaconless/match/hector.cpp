@@ -6,98 +6,103 @@
 
 #include <Eigen/LU>
 
+#include "beaconless/map/grid_traversal.hpp"
 #include "beaconless/match/observability.hpp"
+#include "beaconless/match/straight_pieces.hpp"
 
 namespace beaconless {
 namespace {
 
 constexpr double kFarthestGuess_m = 1e7;
+constexpr double kFarthest_cells = 1e9;
 constexpr double kShortestArm_m = 1e-3;
-constexpr double kClear = 0.1;        // share of H's trace; a direction above it is not in doubt
-constexpr double kProbe_cells = 1.5;  // as far as a wall reaches, so that a probe leaves it
-constexpr double kLeastHeld = 1e-9;
+constexpr double kDamping = 1e-4;          // of H's trace: steps where nothing holds stay short
+constexpr double kPiece_cells = 8.0;       // as long as the ripple of a drawn wall needs to repeat
+constexpr std::size_t kPiecePoints = 150;  // enough of a scan to see what it holds
+constexpr int kLastSteps = 2;              // after weak directions were put back
+constexpr double kNothing = 1e-12;
 
 Pose2 moved(const Pose2& pose, const Eigen::Vector3d& step) {
   return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.theta_rad + step.z())};
 }
 
-/// A scan on one level of the pyramid, its poses in the level's grid.
-class LevelMatch {
- public:
-  LevelMatch(const HectorPoints& points, const OccupancyLevel& level, const HectorConfig& config)
-      : points_(points),
-        level_(level),
-        config_(config),
-        loop_(fastest_hector_loop()),
-        arm_m_(std::max(points.arm_m, kShortestArm_m)) {}
+Eigen::Vector3d way(const Pose2& from, const Pose2& to) {
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
+}
 
-  HectorSums sums(const Pose2& pose, double least = 0.0) const {
-    return sum_hector(points_, level_, pose, least, loop_);
+/// A scan on one level of the pyramid; poses are the laser's in the level's grid.
+struct LevelMatch {
+  const HectorPoints& points;
+  const OccupancyLevel& level;
+  const HectorConfig& config;
+  HectorLoop loop;
+  double arm_m = std::max(points.arm_m, kShortestArm_m);
+
+  HectorSums sums(const Pose2& pose) const { return sum_hector(points, level, pose, loop); }
+
+  /// The Gauss-Newton step, damped as if a little of the information were spread over all directions.
+  Eigen::Vector3d step(const HectorSums& here) const {
+    const Eigen::Vector3d to_metres(1.0, 1.0, 1.0 / arm_m);
+    Eigen::Matrix3d hessian = to_metres.asDiagonal() * here.hessian * to_metres.asDiagonal();
+    hessian.diagonal().array() += kDamping * hessian.trace() + kNothing;
+    return within_limits(to_metres.asDiagonal() *
+                         (hessian.inverse() * to_metres.asDiagonal() * here.gradient));
   }
 
-  /// The step from a pose, within its limits and without what it would move along weak directions.
-  Eigen::Vector3d step(const HectorSums& here, const Pose2& pose) {
-    Eigen::Vector3d step = weak_count_ == 0 && is_clear(here)
-                               ? Eigen::Vector3d(here.hessian.inverse() * here.gradient)
-                               : Eigen::Vector3d(observability(here, pose).inverse() * here.gradient);
-    const double longest_m = config_.max_step_cells * level_.resolution_m();
+  /// The step that keeps out of weak directions.
+  Eigen::Vector3d step(const HectorSums& here, const Observability& seen) const {
+    Eigen::Vector3d step = Eigen::Vector3d::Zero();
+    const int strong = 3 - seen.weak_count;
+    const auto ways = seen.directions.rightCols(strong);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> hessian =
+        ways.transpose() * here.hessian * ways;
+    hessian.diagonal().array() += kDamping * hessian.trace() + kNothing;
+    if (strong > 0) step = ways * hessian.ldlt().solve(ways.transpose() * here.gradient);
+    return within_limits(step);
+  }
+
+  Eigen::Vector3d within_limits(Eigen::Vector3d step) const {
+    const double longest_m = config.max_step_cells * level.resolution_m();
     step.head<2>() *= std::min(1.0, longest_m / std::max(step.head<2>().norm(), longest_m));
-    step.z() = std::clamp(step.z(), -config_.max_turn_rad, config_.max_turn_rad);
+    step.z() = std::clamp(step.z(), -config.max_turn_rad, config.max_turn_rad);
     return step;
   }
-
-  /// What the points hold. How many directions they do not is found out once and stays.
-  Observability observability(const HectorSums& here, const Pose2& pose) {
-    const double least = std::max(config_.least_share * scaled(here).trace(), kLeastHeld);
-    Observability seen(here.hessian, arm_m_, 1.0, 1.0 / std::sqrt(least));
-    if (!is_settled_) {
-      while (seen.weak_count < 3 && !is_held(seen, here, pose)) ++seen.weak_count;
-      weak_count_ = seen.weak_count;
-      is_settled_ = true;
-    }
-    seen.weak_count = std::max(seen.weak_count, weak_count_);
-    return seen;
-  }
-
- private:
-  /// H with headings measured in metres at the points' mean distance.
-  Eigen::Matrix3d scaled(const HectorSums& here) const {
-    const Eigen::Vector3d to_metres(1.0, 1.0, 1.0 / arm_m_);
-    return to_metres.asDiagonal() * here.hessian * to_metres.asDiagonal();
-  }
-
-  /// Whether no eigenvalue of H is in doubt. The least of three is at least 4 det / trace².
-  bool is_clear(const HectorSums& here) const {
-    const Eigen::Matrix3d hessian = scaled(here);
-    const double trace = hessian.trace();
-    return trace > kLeastHeld &&
-           4.0 * hessian.determinant() > std::max(kClear, config_.least_share) * trace * trace * trace;
-  }
-
-  /// Whether the least certain direction that does not count as weak is held by walls, and not by the ripple
-  /// of their cells alone: whether the fit gets worse by moving along it until walls are left.
-  ///
-  /// A wall drawn obliquely into cells has slopes along itself, up and down. In a corridor they add up to an
-  /// H that seems to hold its axis. But they repeat, and over a few cells Σ (1 - M)² stays what it was.
-  bool is_held(const Observability& seen, const HectorSums& here, const Pose2& pose) const {
-    const int k = seen.weak_count;
-    if (seen.hessian[k] > kClear * seen.hessian.sum()) return true;
-    const Eigen::Vector3d way = kProbe_cells * level_.resolution_m() * seen.directions.col(k);
-    const double there = 0.5 * (sums(moved(pose, way)).cost + sums(moved(pose, -way)).cost);
-    return there - here.cost > config_.least_share * here.near_count;
-  }
-
-  const HectorPoints& points_;
-  const OccupancyLevel& level_;
-  const HectorConfig& config_;
-  HectorLoop loop_;
-  double arm_m_;
-  int weak_count_ = 0;
-  bool is_settled_ = false;
 };
 
+/// Which directions the walls near the points hold, and how well.
+///
+/// Not H: a wall drawn obliquely into cells has slopes along itself, up and down. They pull nowhere on the
+/// whole, but in a corridor they add up to an H that seems to hold its axis. The scan knows better where its
+/// surfaces face; H says only how much there is in all. Where a scan has hardly a straight piece (single
+/// keypoints), H is all there is.
+Observability held_by_walls(const LevelMatch& match, const HectorSums& here, const Pose2& pose) {
+  const std::size_t stride = std::max<std::size_t>(1, match.points.count / kPiecePoints);
+  const double cells = 1.0 / match.level.resolution_m();
+  const Eigen::Matrix2d rotation = pose.rotation();
+  const Eigen::Vector2d laser = cells * pose.translation() - Eigen::Vector2d(0.5, 0.5);
+  StraightPieces pieces(kPiece_cells * match.level.resolution_m());
+  int near_count = 0;
+  for (std::size_t i = 0; i < match.points.count; i += stride) {
+    const Eigen::Vector2d arm = rotation * Eigen::Vector2d(match.points.x_m[i], match.points.y_m[i]);
+    const Eigen::Vector2d place = laser + cells * arm;
+    if (!(place.cwiseAbs().maxCoeff() < kFarthest_cells) || !match.level.is_near_obstacle(cell_of(place)))
+      continue;
+    pieces.add(arm);
+    ++near_count;
+  }
+  const StraightPieces::Held held = pieces.finish();
+
+  const Eigen::Vector3d to_metres(1.0, 1.0, 1.0 / match.arm_m);
+  const auto information = [&](const Eigen::Matrix3d& h) { return to_metres.cwiseAbs2().dot(h.diagonal()); };
+  const double all = information(here.hessian);
+  Eigen::Matrix3d hessian = here.hessian;
+  if (2 * held.count > near_count && all > 0.0)
+    hessian = all / information(held.information) * held.information;
+  return {hessian, match.arm_m, 1.0, 1.0 / std::sqrt(std::max(match.config.least_share * all, kNothing))};
+}
+
 /// How much of the scan lies within on_map_m of walls, on the finest level that reaches so far.
-void tell_fit(const HectorPoints& points, const OccupancyPyramid& map, const HectorConfig& config,
+void tell_fit(const HectorScratch& scratch, const OccupancyPyramid& map, const HectorConfig& config,
               MatchResult& result) {
   constexpr double kLeast = 0.05;
   const auto reaches = [&](const OccupancyLevel& level) {
@@ -106,29 +111,30 @@ void tell_fit(const HectorPoints& points, const OccupancyPyramid& map, const Hec
   const auto found = std::find_if(map.levels.begin(), map.levels.end(), reaches);
   const OccupancyLevel& level = found == map.levels.end() ? map.levels.back() : *found;
   const double least = std::clamp(wall_value(config.on_map_m, level.resolution_m()), kLeast, 0.95);
-  const HectorSums fit =
-      LevelMatch(points, level, config).sums(level.map_from_grid().inverse() * result.map_from_laser, least);
-  const auto all = static_cast<double>(points.count);
+  const Pose2 pose = level.map_from_grid().inverse() * result.map_from_laser;
+  const HectorFit fit = fit_hector(scratch.points, level, pose, least, scratch.loop);
+  const auto all = static_cast<double>(scratch.points.count);
   result.on_map_ratio = fit.near_count / all;
-  result.misfit = std::clamp(fit.cost / all, 0.0, 1.0);
+  result.misfit = std::clamp(fit.misfit_sum / all, 0.0, 1.0);
 }
 
-/// The covariance along the map's axes, from what the finest level holds.
-void tell_certainty(const Observability& seen, const HectorSums& last, const HectorPoints& points,
-                    const OccupancyLevel& level, double wall_sigma_m, const HectorConfig& config,
-                    MatchResult& result) {
-  const double near_cost = last.cost - static_cast<double>(static_cast<int>(points.count) - last.near_count);
-  const double residual_m = level.resolution_m() * std::sqrt(std::max(near_cost, 0.0) / last.near_count);
-  const double arm_m = std::max(points.arm_m, kShortestArm_m);
-  Eigen::Matrix3d map_from_grid = Eigen::Matrix3d::Identity();
-  map_from_grid.topLeftCorner<2, 2>() = level.map_from_grid().rotation();
-  result.scale_m = std::max(config.sigma_m, residual_m);
+/// The covariance along the map's axes, from what is left of points on the finest level.
+void tell_certainty(const LevelMatch& match, const Observability& seen, const Pose2& pose,
+                    double wall_sigma_m, MatchResult& result) {
+  // What is left of points counts as much as they pull; with few of them, what is known of the laser does
+  // too.
+  const HectorFit fit = fit_hector(match.points, match.level, pose, 0.0, match.loop);
+  const double known = match.config.min_pairs;
+  result.scale_m = std::sqrt((known * match.config.sigma_m * match.config.sigma_m + fit.pull_m2) /
+                             (known + fit.slope_sum));
   result.rank = 3 - seen.weak_count;
+  Eigen::Matrix3d map_from_grid = Eigen::Matrix3d::Identity();
+  map_from_grid.topLeftCorner<2, 2>() = match.level.map_from_grid().rotation();
   result.weak_direction = map_from_grid * seen.directions.col(0).normalized();
   result.covariance = map_from_grid * (result.scale_m * result.scale_m * seen.inverse() + seen.unknown()) *
                       map_from_grid.transpose();
   result.covariance.diagonal() +=
-      wall_sigma_m * wall_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
+      wall_sigma_m * wall_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (match.arm_m * match.arm_m));
 }
 
 }  // namespace
@@ -145,7 +151,7 @@ void describe(Fields& fields, HectorConfig& config) {
          "a step moves the laser no more cells of its level than this");
   fields("sigma_m", config.sigma_m, {1e-4, 1.0}, "standard deviation of the laser's ranges");
   fields("least_share", config.least_share, {0.0, 1.0},
-         "a direction that a smaller share of the points near walls holds is held at the prediction");
+         "a direction with less than this share of all that the walls hold is held at the prediction");
   fields("on_map_m", config.on_map_m, {0.001, 1.0},
          "a point this near to a wall counts as explained by the map");
   fields("min_pairs", config.min_pairs, {3, 100000}, "fewer points near walls make no match");
@@ -153,50 +159,57 @@ void describe(Fields& fields, HectorConfig& config) {
 
 MatchResult match_hector(std::span<const Eigen::Vector2d> points, const OccupancyPyramid& map,
                          const Pose2& guess, const HectorConfig& config, HectorScratch& scratch) {
-  MatchResult result;
-  result.status = MatchStatus::too_few_pairs;
-  if (!guess.is_finite() || guess.translation().norm() > kFarthestGuess_m) return result;
-  result.map_from_laser = guess;
+  MatchResult none;
+  none.status = MatchStatus::too_few_pairs;
+  if (!guess.is_finite()) return none;
+  none.map_from_laser = guess;
+  if (guess.translation().norm() > kFarthestGuess_m) return none;
   // 1. The points that can be used.
   scratch.points.load(points);
-  if (scratch.points.count == 0 || map.levels.empty()) return result;
+  if (scratch.points.count == 0 || map.levels.empty()) return none;
 
-  // 2. From the coarsest level to the finest: a fixed number of steps.
+  // 2. From the coarsest level to the finest.
+  MatchResult result;
   Pose2 map_from_laser = guess;
-  MatchResult found = result;
   for (std::size_t i = map.levels.size(); i-- > 0;) {
-    const OccupancyLevel& level = map.levels[i];
-    const bool is_finest = i == 0;
-    LevelMatch match(scratch.points, level, config);
-    Pose2 pose = level.map_from_grid().inverse() * map_from_laser;
+    const LevelMatch match{scratch.points, map.levels[i], config, scratch.loop};
+    const Pose2& map_from_grid = match.level.map_from_grid();
+    Pose2 pose = map_from_grid.inverse() * map_from_laser;
+    const int iterations = i == 0 ? config.fine_iterations : config.coarse_iterations;
     HectorSums sums;
-    const int iterations = is_finest ? config.fine_iterations : config.coarse_iterations;
-    found.status = MatchStatus::max_iterations;
     for (int iteration = 0; iteration < iterations; ++iteration) {
       sums = match.sums(pose);
-      result.pair_count = sums.near_count;
-      ++result.iterations;
-      if (sums.near_count < config.min_pairs) return result;
-      const Eigen::Vector3d step = match.step(sums, pose);
+      none.iterations = ++result.iterations;
+      none.pair_count = result.pair_count = sums.near_count;
+      if (sums.near_count < config.min_pairs) return none;
+      const Eigen::Vector3d step = match.step(sums);
       pose = moved(pose, step);
       const bool is_short =
           step.head<2>().norm() < config.converged_m && std::abs(step.z()) < config.converged_rad;
-      found.status = is_short ? MatchStatus::converged : MatchStatus::max_iterations;
+      result.status = is_short ? MatchStatus::converged : MatchStatus::max_iterations;
       if (is_short && config.stops_early) break;
     }
-    map_from_laser = level.map_from_grid() * pose;
-    if (is_finest)
-      tell_certainty(match.observability(sums, pose), sums, scratch.points, level, map.wall_sigma_m, config,
-                     found);
+    if (i == 0) {
+      // 3. What nothing holds goes back to where it was guessed.
+      const Observability seen = held_by_walls(match, sums, pose);
+      if (seen.weak_count > 0) {
+        const Pose2 guessed = map_from_grid.inverse() * guess;
+        pose = moved(guessed, seen.determined(way(guessed, pose)));
+        for (int k = 0; k < kLastSteps; ++k) {
+          sums = match.sums(pose);
+          pose = moved(pose, match.step(sums, seen));
+        }
+      }
+      tell_certainty(match, seen, pose, map.wall_sigma_m, result);
+    }
+    map_from_laser = map_from_grid * pose;
   }
 
-  // 3. What the pose is worth.
-  found.map_from_laser = map_from_laser;
-  found.pair_count = result.pair_count;
-  found.iterations = result.iterations;
-  if (!found.map_from_laser.is_finite() || !found.covariance.allFinite()) return result;
-  tell_fit(scratch.points, map, config, found);
-  return found;
+  // 4. What the pose is worth.
+  result.map_from_laser = map_from_laser;
+  if (!result.map_from_laser.is_finite() || !result.covariance.allFinite()) return none;
+  tell_fit(scratch, map, config, result);
+  return result;
 }
 
 }  // namespace beaconless

@@ -22,7 +22,7 @@ struct HectorConfig {
   double max_turn_rad = 0.2;    ///< in one step
   double max_step_cells = 2.0;  ///< in one step, of its level's cells
   double sigma_m = 0.01;        ///< range noise of the laser; residuals are not believed to be smaller
-  double least_share = 0.03;    ///< a direction that fewer of the points hold is held at the guess
+  double least_share = 0.02;    ///< a direction with less of all that the walls hold is held at the guess
   double on_map_m = 0.10;       ///< a point this near to a wall counts as explained by the map
   int min_pairs = 12;           ///< fewer points near walls make no match
 };
@@ -32,22 +32,26 @@ void describe(Fields& fields, HectorConfig& config);
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct HectorScratch {
   HectorPoints points;
+  HectorLoop loop = fastest_hector_loop();
 };
 
 /// Fits the points of a scan onto a map of cells, from a guess nearby: Gauss-Newton on Σ (1 - M)², from the
 /// coarsest level to the finest.
 ///
-/// In: points in the laser frame (m). Out: map_from_laser with covariance σ² H⁻¹ in metres and radians, where
-/// σ is the largest of sigma_m and the residuals met, and the map's wall_sigma_m is added. Points further
-/// than a cell or two from every wall pull on nothing, which is all the robustness there is, and needs no
-/// more: people are such points. Cost: points x steps x one load; see bench/hector_bench. Status:
-/// too_few_pairs leaves the guess (no pose for one that is not finite); never throws, never NaN.
+/// In: points in the laser frame (m), in the order of the scan. Out: map_from_laser. Points further than a
+/// cell or two of the finest level from every wall pull on nothing in the end, which makes people harmless.
+/// covariance: σ² H⁻¹ in metres and radians, σ² the mean square residual of the points, each counted as it
+/// pulls, H freed of the ripple of drawn walls (see held_by_walls in the .cpp), plus the map's wall_sigma_m.
+/// It is honest while the range noise is well below a cell and the map's walls are where it says.
+/// on_map_ratio, misfit: from the finest level that reaches on_map_m; 1 - M there is about the distance.
+/// Cost: points x steps x one load; see bench/hector_bench. Status: too_few_pairs leaves the guess (no pose
+/// for one that is not finite); never throws, never NaN.
 ///
 /// Source: Kohlbrecher et al., SSRR 2011; dissertation 2.4.2. Differs: (1) printed there, H lacks the sum
 /// over the points; (2) hector_slam's slope of M is wrong beside oblique walls, see sum_hector(); (3) it
-/// publishes H as the covariance, in cells; (4) it solves with whatever H it finds, and in a corridor runs
-/// along the axis: here directions that few points hold are left at the guess (holds_along in the .cpp says
-/// how that is told from the ripple of drawn walls); (5) M, see OccupancyLevel and wall_value().
+/// publishes H as the covariance, in cells; (4) it solves with whatever H it finds, and so drifts along a
+/// corridor: here directions that walls do not hold stay at the guess; (5) for the values of M, see
+/// OccupancyLevel and wall_value().
 MatchResult match_hector(std::span<const Eigen::Vector2d> points, const OccupancyPyramid& map,
                          const Pose2& guess, const HectorConfig& config, HectorScratch& scratch);
 
