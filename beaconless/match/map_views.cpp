@@ -12,9 +12,11 @@
 namespace beaconless {
 namespace {
 
-constexpr int kGlances = 72;                // rays that judge a place
-constexpr double kGlance_m = 1000.0;        // walls further than this are not around
-constexpr std::array kAround = {0.7, 0.3};  // share of the glances that must meet a wall, if any place has it
+constexpr int kGlances = 72;          // rays that judge a place
+constexpr double kGlance_m = 1000.0;  // walls further than this are not around
+// Share of the glances that must meet a wall, if any place has it; outside of a house, between two of its
+// wings, it is 3/4 at most.
+constexpr std::array kAround = {0.76, 0.3};
 constexpr double kJitter_steps = 0.3;
 constexpr std::size_t kFewest = 60;   // places; of a map that has fewer, more are taken nearer together …
 constexpr double kLeastStep_m = 0.1;  // … but no nearer than this

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/match/grid_outlines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "beaconless/core/rng.hpp"
+#include "beaconless/geometry/angle.hpp"
+#include "beaconless/map/rasterize.hpp"
+#include "beaconless/map/ray_caster.hpp"
+#include "beaconless/match/cell_loops.hpp"
+
+#include "tests/support/rooms.hpp"
+
+namespace beaconless {
+namespace {
+
+/// A grid as drawn: '#' is occupied, '.' free, '?' unknown; the last row is the lowest.
+OccupancyGrid drawn(const std::vector<std::string>& rows, double resolution_m = 1.0) {
+  OccupancyGrid grid;
+  grid.resolution_m = resolution_m;
+  grid.width_cells = static_cast<int>(rows.front().size());
+  grid.height_cells = static_cast<int>(rows.size());
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+    for (const char cell : *row)
+      grid.occupancy_percent.push_back(cell == '#'   ? OccupancyGrid::kOccupied
+                                       : cell == '.' ? OccupancyGrid::kFree
+                                                     : OccupancyGrid::kUnknown);
+  return grid;
+}
+
+/// The distance from the nearest outline.
+double distance_m(const FloorPlan& plan, const Eigen::Vector2d& point) {
+  double least = 1e9;
+  for (const Segment2& wall : plan.segments()) least = std::min(least, wall.distance_m(point));
+  return least;
+}
+
+std::set<std::pair<int, int>> cells_of(const std::vector<std::vector<Cell>>& loops) {
+  std::set<std::pair<int, int>> cells;
+  for (const auto& loop : loops)
+    for (const Cell& cell : loop) cells.insert({cell.x, cell.y});
+  return cells;
+}
+
+TEST(CellLoops, PassEveryCellThatHasAFreeSideAndNoOther) {
+  Rng rng(2);
+  for (const double share : {0.05, 0.3, 0.5, 0.7, 0.95}) {
+    OccupancyGrid grid;
+    grid.width_cells = 40;
+    grid.height_cells = 30;
+    for (int i = 0; i < 1200; ++i)
+      grid.occupancy_percent.push_back(rng.uniform() < share ? OccupancyGrid::kOccupied
+                                                             : OccupancyGrid::kUnknown);
+    std::set<std::pair<int, int>> expected;
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x)
+        if (grid.is_occupied({x, y}) && !(grid.is_occupied({x - 1, y}) && grid.is_occupied({x + 1, y}) &&
+                                          grid.is_occupied({x, y - 1}) && grid.is_occupied({x, y + 1})))
+          expected.insert({x, y});
+    const auto loops = find_cell_loops(grid);
+    EXPECT_EQ(cells_of(loops), expected);
+    for (const auto& loop : loops)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Cell a = loop[i];
+        const Cell b = loop[i + 1 < loop.size() ? i + 1 : 0];
+        EXPECT_LE(std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)), 1);  // neighbours, if by a corner
+      }
+  }
+}
+
+TEST(CellLoops, GoAroundAndInside) {
+  EXPECT_TRUE(find_cell_loops(drawn({"...", "..."})).empty());
+  const auto ring = find_cell_loops(drawn({"####", "#..#", "####"}));
+  ASSERT_EQ(ring.size(), 2U);  // without and within
+  EXPECT_EQ(ring[0].size(), 10U);
+  EXPECT_EQ(find_cell_loops(drawn({"#.#", ".#.", "#.#"})).size(), 1U);  // corners hang together
+  EXPECT_EQ(find_cell_loops(drawn({"#.#"})).size(), 2U);
+}
+
+TEST(GridOutlines, ARectangleHasItsCorners) {
+  const FloorPlan plan = outlines_of(drawn({"##########", "##########", "##########", "##########"}, 0.1));
+  ASSERT_EQ(plan.walls.size(), 1U);
+  ASSERT_EQ(plan.walls[0].size(), 5U);
+  EXPECT_EQ(plan.walls[0].front(), plan.walls[0].back());
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0.05, 0.05), Eigen::Vector2d(0.95, 0.05),
+                                        Eigen::Vector2d(0.95, 0.35), Eigen::Vector2d(0.05, 0.35)})
+    EXPECT_TRUE(std::any_of(plan.walls[0].begin(), plan.walls[0].end(),
+                            [&](const auto& point) { return (point - corner).norm() < 1e-9; }));
+}
+
+TEST(GridOutlines, SmallThingsStay) {
+  const FloorPlan cell = outlines_of(drawn({"...", ".#.", "..."}));
+  ASSERT_EQ(cell.segments().size(), 4U);  // a square on edge
+  EXPECT_NEAR(distance_m(cell, {1.5, 1.5}), std::sqrt(0.125), 1e-9);
+  const FloorPlan two = outlines_of(drawn({"....", ".##.", "...."}));
+  EXPECT_NEAR(distance_m(two, {2.0, 1.5}), 0.0, 1e-9);
+  EXPECT_FALSE(two.segments().empty());
+  const FloorPlan square = outlines_of(drawn({"##", "##"}));
+  EXPECT_EQ(square.segments().size(), 4U);
+  const FloorPlan pillar = outlines_of(drawn({"###", "###", "###"}));
+  EXPECT_EQ(pillar.segments().size(), 4U);
+}
+
+TEST(GridOutlines, NothingIsSeenThroughAnObliqueWall) {
+  // Cells of a thin wall touch by their corners only.
+  const RayCaster rays(outlines_of(drawn({"#....", ".#...", "..#..", "...#.", "....#"})).segments());
+  for (double s = 0.7; s < 4.3; s += 0.01) {
+    const Eigen::Vector2d from(s - 1.0, 5.0 - s - 1.0);
+    EXPECT_TRUE(rays.cast(from, Eigen::Vector2d(1.0, 1.0).normalized(), 3.0)) << s;
+  }
+}
+
+TEST(GridOutlines, OfNothingAreNone) {
+  EXPECT_TRUE(outlines_of(OccupancyGrid{}).walls.empty());
+  EXPECT_TRUE(outlines_of(drawn({"..?", "?.."})).walls.empty());
+  EXPECT_EQ(outlines_of(drawn({"###", "###"})).walls.size(), 1U);  // up to the border of the grid
+}
+
+TEST(GridOutlines, TurnWithTheGrid) {
+  OccupancyGrid grid = drawn({"......", ".####.", ".#..#.", ".#..#.", ".####.", "......"}, 0.05);
+  const FloorPlan plan = outlines_of(grid);
+  grid.map_from_grid = {3.0, -2.0, 0.7};
+  const FloorPlan turned = outlines_of(grid);
+  ASSERT_EQ(turned.walls.size(), plan.walls.size());
+  for (std::size_t w = 0; w < plan.walls.size(); ++w)
+    for (std::size_t i = 0; i < plan.walls[w].size(); ++i)
+      EXPECT_LT((turned.walls[w][i] - grid.map_from_grid * plan.walls[w][i]).norm(), 1e-12);
+}
+
+/// The points on a plan's walls that are at least `from_corner_m` from their ends.
+std::vector<Eigen::Vector2d> along_walls(const FloorPlan& plan, double from_corner_m) {
+  std::vector<Eigen::Vector2d> points;
+  for (const Segment2& wall : plan.segments())
+    for (double s = from_corner_m; s < wall.length_m() - from_corner_m; s += 0.02)
+      points.emplace_back(wall.a + s * (wall.b - wall.a).normalized());
+  return points;
+}
+
+TEST(GridOutlines, LieOnTheWallsThatWereDrawn) {
+  // Every cell that a wall passes through is occupied; where the wall runs oblique to the cells, the
+  // outline's root mean square distance from it is a small part of one, and along them at most half of one.
+  const FloorPlan room = test::niche_room();
+  for (const double heading_deg : {0.0, 7.0, 23.0, 45.0})
+    for (const double phase : {0.5, 0.3, 0.05}) {
+      const OccupancyGrid grid = rasterize(room, {.resolution_m = 0.05,
+                                                  .heading_rad = radians(heading_deg),
+                                                  .phase_x_cells = phase,
+                                                  .phase_y_cells = 1.0 - phase})
+                                     .value();
+      const FloorPlan outlines = outlines_of(grid);
+      double square = 0.0;
+      double most = 0.0;
+      const auto points = along_walls(room, 0.1);
+      for (const Eigen::Vector2d& point : points) {
+        const double off = distance_m(outlines, point);
+        square += off * off / static_cast<double>(points.size());
+        most = std::max(most, off);
+      }
+      EXPECT_LT(std::sqrt(square), (heading_deg == 0.0 ? 0.5 : 0.3) * 0.05) << heading_deg << " " << phase;
+      EXPECT_LT(most, 1.0 * 0.05) << heading_deg << " " << phase;
+      // A few straight pieces, not a staircase: both sides of each of the twelve walls, and some to spare.
+      EXPECT_LT(outlines.segments().size(), 60U) << heading_deg << " " << phase;
+    }
+}
+
+}  // namespace
+}  // namespace beaconless
