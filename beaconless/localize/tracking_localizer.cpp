@@ -18,7 +18,9 @@ constexpr double kJump_rad = radians(8.0);
 constexpr double kCovered_m = 0.5;      // where fewer beams than the next share reach further than this …
 constexpr double kCoveredShare = 0.05;  // … anything fits anywhere
 constexpr double kLostWindow = 2.5;     // how much wider a lost robot searches
-constexpr std::size_t kChecks = 240;    // beams that check a pose: the share is then known to 3 %
+constexpr double kVague_m = 0.1;        // a prediction less certain than this is not gone by …
+constexpr double kVague_rad = radians(5.0);  // … where the whole scan tells better
+constexpr std::size_t kChecks = 240;         // beams that check a pose: the share is then known to 3 %
 
 /// Two independent opinions on the same pose, each with its covariance.
 Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -44,6 +46,12 @@ std::string_view reason_of(Status status, bool was_lost) {
   if (status == Status::lost) return "the scan does not fit the map here";
   return was_lost ? "a place that fits was found; more scans must agree"
                   : "less of the scan lies on the map than is usual";
+}
+
+/// Whether the motion so far no longer tells where the robot is.
+bool is_vague(const Prediction& prediction) {
+  return prediction.covariance.topLeftCorner<2, 2>().trace() > kVague_m * kVague_m ||
+         prediction.covariance(2, 2) > kVague_rad * kVague_rad;
 }
 
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
@@ -94,10 +102,13 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   if (is_worth_searching(match, prediction)) {
     const std::vector<StartPose> starts = starts_around(prediction);
     match = best_of(starts, match, prediction, [&](const Pose2& start) { return fit_from(start); });
-    if (!reason_to_coast(match, prediction).empty()) whole_scan = fit_whole_scan(starts, prediction);
+    if (!reason_against(match, prediction).empty()) whole_scan = fit_whole_scan(starts, prediction);
+  } else if (!match.usable() && is_vague(prediction)) {
+    const StartPose there{guess};
+    whole_scan = fit_whole_scan({&there, 1}, prediction);
   }
   // 5. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
-  const std::string_view doubt = reason_to_coast(match, prediction);
+  const std::string_view doubt = reason_against(match, prediction);
   last_ = doubt.empty() ? accept(match, prediction, *scan)
           : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
@@ -125,8 +136,20 @@ std::string_view TrackingLocalizer::reason_to_coast(const MatchResult& match,
                                           : "the scan fits nowhere around the last trusted pose";
   if (first_scan_ || health_.lost()) return {};
   if (is_jump(match, prediction)) return "the scan fits nowhere near the predicted pose";
-  if (!matcher_->judges_whole_scan() && match.misfit > kClearlyBetter &&
-      match.misfit > fit_at(prediction).misfit + kClearlyBetter)
+  return {};
+}
+
+std::string_view TrackingLocalizer::reason_against(const MatchResult& match,
+                                                   const Prediction& prediction) const {
+  const std::string_view reason = reason_to_coast(match, prediction);
+  return reason.empty() ? reason_against_features(match, prediction) : reason;
+}
+
+std::string_view TrackingLocalizer::reason_against_features(const MatchResult& match,
+                                                            const Prediction& prediction) const {
+  if (matcher_->judges_whole_scan() || first_scan_ || health_.lost()) return {};
+  if (health_.is_weak(match.on_map_ratio)) return "the features fit, but too little of the rest of the scan";
+  if (match.misfit > kClearlyBetter && match.misfit > fit_at(prediction).misfit + kClearlyBetter)
     return "the features fit, but the rest of the scan fits the predicted pose far better";
   return {};
 }
@@ -255,8 +278,9 @@ PoseEstimate TrackingLocalizer::coast(const Prediction& prediction, Stamp stamp,
   estimate.map_from_base = prediction.map_from_base;
   estimate.covariance = prediction.covariance;
   // A pose that nothing corrects is never ok; it is not lost as long as the scan lies on the map there.
+  // What is usual is not learnt from it: it may drift away little by little.
   estimate.quality = health_.lost() || is_covered_ ? 0.0 : fit_at(prediction).on_map_ratio;
-  health_.judge(estimate.quality);
+  if (health_.is_weak(estimate.quality)) health_.judge(estimate.quality);
   if (health_.lost()) estimate.covariance += kLostCovariance;
   estimate.covariance = symmetric(estimate.covariance);
   estimate.status = health_.lost() ? Status::lost : Status::degraded;

@@ -39,6 +39,8 @@ class TrackingLocalizer final : public Localizer {
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
   bool is_worth_searching(const MatchResult& match, const Prediction& prediction);
   std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
+  std::string_view reason_against_features(const MatchResult& match, const Prediction& prediction) const;
+  std::string_view reason_against(const MatchResult& match, const Prediction& prediction) const;
   std::vector<StartPose> starts_around(const Prediction& prediction) const;
   template <class Fit>
   MatchResult best_of(std::span<const StartPose> starts, const MatchResult& first,
