@@ -40,6 +40,13 @@ struct LevelMatch {
 
   HectorSums sums(const Pose2& pose) const { return sum_hector(points, level, pose, loop); }
 
+  /// Which of two poses fits better. Coarse cells feel walls from afar, and things beside them: where a guess
+  /// was good, clutter may have drawn it away.
+  Pose2 better(const Pose2& one, const Pose2& other) const {
+    const double misfit = fit_hector(points, level, one, 0.0, loop).misfit_sum;
+    return fit_hector(points, level, other, 0.0, loop).misfit_sum < misfit ? other : one;
+  }
+
   /// The Gauss-Newton step, damped as if a little of the information were spread over all directions.
   Eigen::Vector3d step(const HectorSums& here) const {
     const Eigen::Vector3d to_metres(1.0, 1.0, 1.0 / arm_m);
@@ -175,6 +182,7 @@ MatchResult match_hector(std::span<const Eigen::Vector2d> points, const Occupanc
     const LevelMatch match{scratch.points, map.levels[i], config, scratch.loop};
     const Pose2& map_from_grid = match.level.map_from_grid();
     Pose2 pose = map_from_grid.inverse() * map_from_laser;
+    if (i == 0 && map.levels.size() > 1) pose = match.better(pose, map_from_grid.inverse() * guess);
     const int iterations = i == 0 ? config.fine_iterations : config.coarse_iterations;
     HectorSums sums;
     for (int iteration = 0; iteration < iterations; ++iteration) {
