@@ -49,12 +49,14 @@ void FeatureTracker::recall(const Pose2& map_from_laser, const Eigen::Matrix3d& 
                                 apart.dot(spread.inverse() * apart) < config_.same_sigma * config_.same_sigma;
                        });
   };
+  // All hang on the same expectation: told apart, each may count for its share of it only.
+  const auto shared = static_cast<double>(kept_.size());
   for (Kept& kept : kept_) {
     // 1. Where it should be now, and how sure that is.
     PointFeature here = moved(kept.feature, laser_from_map);
     const Eigen::Vector2d arm = kept.feature.point - map_from_laser.translation();
     here.covariance *= 1.0 + config_.growth_per_scan * (kept.unseen_scans + 1);
-    here.covariance += to_laser * carried(covariance, arm) * to_laser.transpose();
+    here.covariance += shared * to_laser * carried(covariance, arm) * to_laser.transpose();
     // 2. One that is seen needs no memory; one unseen for too long is gone.
     kept.unseen_scans = matches(here) ? config_.keep_scans + 1 : kept.unseen_scans + 1;
     if (kept.unseen_scans <= config_.keep_scans) seen.push_back(here);

@@ -26,7 +26,8 @@ void describe(Fields& fields, FeatureTrackerConfig& config);
 /// only does not make the pose jump.
 ///
 /// They are kept where they were in the map; as seen from where the robot should be now they get the
-/// uncertainty of that expectation besides their own, so that what is seen outweighs what is remembered.
+/// uncertainty of that expectation besides their own, so that what is seen outweighs what is remembered, and
+/// all of them together tell no more than the expectation did.
 /// Source: dissertation 4.4, feature tracking. Differs: the dissertation does not say in which frame features
 /// were kept; old coordinates in the sensor's frame would drag a moving robot back to where it was.
 class FeatureTracker {
