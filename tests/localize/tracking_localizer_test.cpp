@@ -50,13 +50,13 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, EachRoom,
                            return word;
                          });
 
-TEST(IcpLocalizer, GivesTheSameBitsTwice) {
+TEST(TrackingLocalizer, GivesTheSameBitsTwice) {
   const sim::Scenario s = scenario("small-drive");
   const auto drive = sim::simulate(s).value();
   EXPECT_EQ(run(s, drive), run(s, drive));
 }
 
-TEST(IcpLocalizer, SaysWhatItIsMissing) {
+TEST(TrackingLocalizer, SaysWhatItIsMissing) {
   const sim::Scenario s = scenario("small-static");
   const auto drive = sim::simulate(s).value();
   const auto localizer = localizer_for(s);
@@ -69,7 +69,7 @@ TEST(IcpLocalizer, SaysWhatItIsMissing) {
   EXPECT_EQ(localizer->update(drive.events.front()).status, Status::ok);
 }
 
-TEST(IcpLocalizer, IsTotalOnAnyScanAtAnyTime) {
+TEST(TrackingLocalizer, IsTotalOnAnyScanAtAnyTime) {
   Rng rng(8);
   const auto localizer = make_localizer({}, test::niche_room()).value();
   localizer->start_at({3, 2, 0});
@@ -96,7 +96,7 @@ TEST(IcpLocalizer, IsTotalOnAnyScanAtAnyTime) {
 }
 
 /// Carried to another room, the robot must say so; brought back, it must go on.
-TEST(IcpLocalizer, SaysThatItIsLostAndComesBackWhenTheRoomDoes) {
+TEST(TrackingLocalizer, SaysThatItIsLostAndComesBackWhenTheRoomDoes) {
   Rng rng(9);
   const FloorPlan home = test::niche_room();
   const RayCaster home_walls(home.segments());
@@ -123,7 +123,7 @@ TEST(IcpLocalizer, SaysThatItIsLostAndComesBackWhenTheRoomDoes) {
   EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.005);
 }
 
-TEST(IcpLocalizer, InACorridorIsDegradedAndLessSureWithEveryScan) {
+TEST(TrackingLocalizer, InACorridorIsDegradedAndLessSureWithEveryScan) {
   Rng rng(10);
   const FloorPlan corridor{{{{-100, 0}, {100, 0}}, {{-100, 2.5}, {100, 2.5}}}};
   const RayCaster walls(corridor.segments());
@@ -140,7 +140,7 @@ TEST(IcpLocalizer, InACorridorIsDegradedAndLessSureWithEveryScan) {
   EXPECT_GT(before, 0.2 * 0.2) << "a start pose is known to a quarter of a metre, and nothing has told more";
 }
 
-TEST(IcpLocalizer, ACoveredScannerIsNeverOk) {
+TEST(TrackingLocalizer, ACoveredScannerIsNeverOk) {
   Rng rng(12);
   const FloorPlan plan = test::niche_room();
   const RayCaster walls(plan.segments());
@@ -167,7 +167,7 @@ TEST(IcpLocalizer, ACoveredScannerIsNeverOk) {
   EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.005);
 }
 
-TEST(IcpLocalizer, AStartInTheWrongPlaceIsNotBelieved) {
+TEST(TrackingLocalizer, AStartInTheWrongPlaceIsNotBelieved) {
   Rng rng(13);
   const FloorPlan plan = test::niche_room();
   const RayCaster walls(plan.segments());
