@@ -33,6 +33,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--reference", words->reference, "Poses to compare with: a TUM file, or 'recorded'");
   command->add_option("--pose-topic", words->pose_topic,
                       "Which poses 'recorded' means, where there are several");
+  command->add_option("--alone", words->alone,
+                      "Take every scan for itself: start it METRES,DEGREES away from its --start-from pose");
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "beaconless/core/parse.hpp"
+#include "beaconless/core/rng.hpp"
 #include "beaconless/io/config_yaml.hpp"
 #include "beaconless/io/map_io.hpp"
 #include "beaconless/io/yaml_tree.hpp"
@@ -107,6 +109,25 @@ Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& record
                "give one by --start x,y,deg"};
 }
 
+/// What `--alone` says: how far from its reference each scan starts, a random way and turned to either side.
+Result<StartAt> starts_alone(const LocalizeWords& words, const PosesOf& poses) {
+  const auto parts = split_words(words.alone, ", ");
+  const auto metres = parts.size() == 2 ? parse_double(parts[0]) : std::nullopt;
+  const auto turn_deg = parts.size() == 2 ? parse_double(parts[1]) : std::nullopt;
+  if (!metres || !turn_deg || !(std::abs(*metres) < 100.0) || !(std::abs(*turn_deg) <= 180.0))
+    return Error{"--alone", "\"" + words.alone + "\" is no distance and turn",
+                 "write METRES,DEGREES, for example 0.3,10"};
+  return StartAt([&poses, metres = *metres, turn_rad = radians(*turn_deg), rng = Rng(1)](
+                     std::size_t scan_index, Stamp stamp) mutable -> std::optional<Pose2> {
+    const double way = rng.uniform(-kPi, kPi);
+    const double side = rng.uniform() < 0.5 ? -1.0 : 1.0;
+    const auto pose = poses.at(scan_index, stamp);
+    if (!pose) return std::nullopt;
+    return Pose2{pose->x_m + metres * std::cos(way), pose->y_m + metres * std::sin(way),
+                 wrap_angle(pose->theta_rad + side * turn_rad)};
+  });
+}
+
 }  // namespace
 
 int localize_run(const Console& console, const LocalizeWords& words) {
@@ -136,6 +157,20 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   problems.forget();
   problems.listening = false;
   ProblemLog pose_problems;
+  StartAt start_at;
+  PosesOf starts;
+  if (!words.alone.empty()) {
+    if (words.start_from.empty())
+      return console.fail({"--alone", "it needs a pose of every scan", "give --start-from REF.tum|recorded"},
+                          exit_usage);
+    auto poses = poses_of(words.start_from, *recording, words.pose_topic, pose_problems);
+    if (!poses) return console.fail(poses.error());
+    starts = *std::move(poses);
+    auto alone = starts_alone(words, starts);
+    if (!alone) return console.fail(alone.error(), exit_usage);
+    start_at = *std::move(alone);
+    pose_problems.forget();
+  }
   const auto start = start_pose(words, *recording, *first, pose_problems);
   if (!start) pose_problems.report(console);
   if (!start) return console.fail(start.error(), words.start.empty() ? exit_data : exit_usage);
@@ -155,7 +190,7 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   (*localizer)->start_at(*start);
   Run run{.config = *config, .map = shared_map, .reference = std::move(reference), .first_scan = first->scan};
   problems.listening = true;
-  run.replay = replay(*recording, *scans, **localizer, config->base_from_laser, console);
+  run.replay = replay(*recording, *scans, **localizer, config->base_from_laser, console, start_at);
   if (run.replay.estimates.empty())
     return console.fail({words.recording, "its scans are gone", "did it change while it was read?"});
   run.problems = problems.lines();

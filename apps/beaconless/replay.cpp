@@ -38,7 +38,7 @@ class Overlay {
 }  // namespace
 
 Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Localizer& localizer,
-              const Pose2& base_from_laser, const Console& console) {
+              const Pose2& base_from_laser, const Console& console, const StartAt& start_at) {
   using Clock = std::chrono::steady_clock;
   Replay run;
   Overlay overlay;
@@ -54,6 +54,8 @@ Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Lo
       const std::size_t index = scan_index++;
       wanted_more = !scans.done_after(index);
       if (!scans.wants(index)) continue;
+      if (start_at)
+        if (const auto start = start_at(index, scan->stamp())) localizer.start_at(*start);
     }
     const auto begin = Clock::now();
     const PoseEstimate estimate = localizer.update(*event);

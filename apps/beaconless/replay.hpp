@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "beaconless/io/recording.hpp"
@@ -20,8 +22,11 @@ struct Replay {
   std::uint64_t skipped_records = 0;
 };
 
+/// Where the robot is told to stand before a scan is fed; nothing: where it believes to be.
+using StartAt = std::function<std::optional<Pose2>(std::size_t scan_index, Stamp stamp)>;
+
 /// Feeds the events of a recording to a localizer, scans by the selection.
 Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Localizer& localizer,
-              const Pose2& base_from_laser, const Console& console);
+              const Pose2& base_from_laser, const Console& console, const StartAt& start_at = {});
 
 }  // namespace beaconless::cli

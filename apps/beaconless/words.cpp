@@ -60,7 +60,7 @@ ScanGate ScanWords::gate() const {
 Result<io::ScanSelection> ScanWords::selection() const {
   auto selection = io::ScanSelection::parse(scans);
   if (!selection) return Error{"--scans", selection.error().what, selection.error().remedy};
-  if (selection->start >= selection->stop)
+  if (selection->start >= selection->stop && !selection->is_left_out)
     return Error{"--scans", "\"" + scans + "\" takes no scan", "write start:stop with start below stop"};
   return selection;
 }

@@ -7,7 +7,8 @@
 namespace beaconless::io {
 namespace {
 
-constexpr const char* kAllowed = "start:stop:step counted from 0, for example 1::2, 0:100 or 5";
+constexpr const char* kAllowed =
+    "start:stop:step counted from 0, for example 1::2, 0:100 or 5; ^1::2 is all others";
 
 }  // namespace
 
@@ -19,9 +20,10 @@ Result<ScanSelection> ScanSelection::parse(std::string_view text) {
   if (text.empty()) return ScanSelection{};
 
   ScanSelection selection;
+  selection.is_left_out = text.front() == '^';
   std::uint64_t* const parts[] = {&selection.start, &selection.stop, &selection.step};
   std::size_t count = 0;
-  for (std::string_view rest = text;; ++count) {
+  for (std::string_view rest = text.substr(selection.is_left_out ? 1 : 0);; ++count) {
     if (count == 3) return wrong;
     const std::size_t colon = rest.find(':');
     const std::string_view part = rest.substr(0, colon);
