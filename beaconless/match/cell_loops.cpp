@@ -25,6 +25,13 @@ Cell moved(Cell cell, int direction) {
 
 int turned(int direction, int quarters) { return (direction + quarters) & 3; }
 
+/// Whether a grid is as large as it says.
+bool has_all_cells(const OccupancyGrid& grid) {
+  return grid.width_cells > 0 && grid.height_cells > 0 &&
+         grid.occupancy_percent.size() ==
+             static_cast<std::size_t>(grid.width_cells) * static_cast<std::size_t>(grid.height_cells);
+}
+
 /// The cell on the other side of a crack.
 Cell beyond(const Crack& crack) { return moved(crack.cell, turned(crack.direction, 3)); }
 
@@ -42,6 +49,7 @@ Crack next(const OccupancyGrid& grid, const Crack& crack) {
 
 std::vector<std::vector<Cell>> find_cell_loops(const OccupancyGrid& grid) {
   std::vector<std::vector<Cell>> loops;
+  if (!has_all_cells(grid)) return loops;
   std::vector<std::uint8_t> seen(grid.occupancy_percent.size(), 0);  // a bit a side
   for (int y = 0; y < grid.height_cells; ++y)
     for (int x = 0; x < grid.width_cells; ++x) {

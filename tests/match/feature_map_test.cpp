@@ -317,6 +317,15 @@ TEST(FeatureMap, OfAMapWithoutAnySaysSo) {
   for (std::int8_t& cell : unknown.occupancy_percent)
     if (cell < unknown.occupied_from_percent) cell = OccupancyGrid::kUnknown;
   EXPECT_FALSE(error_of(unknown, Detector::corners).remedy.empty());
+  // A grid that is not as large as it says, and one whose cells have no size.
+  OccupancyGrid liar = rasterize(test::rectangle(4, 3)).value();
+  liar.occupancy_percent.resize(17);
+  EXPECT_FALSE(error_of(liar, Detector::corners).remedy.empty());
+  for (const double size : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    OccupancyGrid sizeless = rasterize(test::rectangle(4, 3)).value();
+    sizeless.resolution_m = size;
+    EXPECT_FALSE(error_of(sizeless, Detector::corners).what.empty());
+  }
 }
 
 TEST(FeatureMap, WithAWrongConfigSaysSo) {
