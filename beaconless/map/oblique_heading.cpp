@@ -23,7 +23,7 @@ struct LatticeRow {
 
 std::vector<LatticeRow> lattice_rows() {
   std::vector<LatticeRow> rows;
-  rows.reserve(2 * kLongestStep_cells * kLongestStep_cells);
+  rows.reserve(std::size_t{2} * kLongestStep_cells * kLongestStep_cells);
   for (int x = 0; x <= kLongestStep_cells; ++x)
     for (int y = x == 0 ? 1 : -kLongestStep_cells; y <= kLongestStep_cells; ++y)
       if (std::gcd(x, y) == 1) rows.push_back({std::atan2(y, x), 1.0 / std::hypot(x, y)});

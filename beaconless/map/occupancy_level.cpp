@@ -78,7 +78,7 @@ Result<Done> OccupancyLevel::cover(Cell low, Cell high) {
   if (!was_empty) {
     const auto spare_x = static_cast<int>(kSpare_cells + width / 4);
     const auto spare_y = static_cast<int>(kSpare_cells + height / 4);
-    if ((width + 2 * spare_x) * (height + 2 * spare_y) <= kMaxCells) {
+    if ((width + std::int64_t{2} * spare_x) * (height + std::int64_t{2} * spare_y) <= kMaxCells) {
       if (new_low.x < low_.x) new_low.x -= spare_x;
       if (new_low.y < low_.y) new_low.y -= spare_y;
       if (new_high.x > high_.x) new_high.x += spare_x;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,8 +41,8 @@ class OccupancyLevel {
   /// copy, with room to spare so that a long drive copies seldom.
   Result<Done> cover(Cell low, Cell high);
 
-  /// Sets a cell; one without room is left out. In: value in [0, 1]. Cost: four bytes.
-  void set(Cell cell, double value) { put(cell, static_cast<std::uint8_t>(kSteps * value + 0.5)); }
+  /// Sets a cell; one without room is left out. In: a value, cut to [0, 1]. Cost: four bytes.
+  void set(Cell cell, double value) { put(cell, steps_of(value)); }
   void forget(Cell cell) { put(cell, kUnknown); }
 
   bool is_known(Cell cell) const { return byte(cell) != kUnknown; }
@@ -76,6 +77,10 @@ class OccupancyLevel {
  private:
   bool has_room(Cell cell) const {
     return cell.x >= low_.x && cell.y >= low_.y && cell.x <= high_.x && cell.y <= high_.y;
+  }
+  static std::uint8_t steps_of(double value) {
+    constexpr double kHalfStep = 0.5;
+    return static_cast<std::uint8_t>(kSteps * (value > 0.0 ? std::min(value, 1.0) : 0.0) + kHalfStep);
   }
   std::size_t place(Cell cell) const;
   std::uint8_t byte(Cell cell) const;

@@ -129,8 +129,8 @@ void HectorPoints::load(std::span<const Eigen::Vector2d> points) {
 
 HectorLoop fastest_hector_loop() {
 #ifdef HECTOR_HAS_AVX2
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has_avx2 ? HectorLoop::avx2 : HectorLoop::portable;
+  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return kHasAvx2 ? HectorLoop::avx2 : HectorLoop::portable;
 #else
   return HectorLoop::portable;
 #endif
@@ -158,7 +158,7 @@ HectorFit fit_hector(const HectorPoints& points, const OccupancyLevel& level, co
   const auto in = input_of(points, level, grid_from_laser, least);
   if (!in) return {.misfit_sum = static_cast<double>(points.count)};
   const LoopSums sums = run<true>(*in, loop);
-  const double cap = static_cast<double>(in->cap);
+  const auto cap = static_cast<double>(in->cap);
   const double length_m = level.resolution_m();
   const auto only_fill_up = static_cast<double>(points.x_m.size() - points.count);
   return {.near_count = sums.near_count,

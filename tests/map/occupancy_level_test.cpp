@@ -2,6 +2,7 @@
 #include "beaconless/map/occupancy_level.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -38,6 +39,12 @@ TEST(OccupancyLevel, KeepsValuesToHalfAStep) {
   EXPECT_EQ(level.value({-2, 5}), 1.0);
   level.forget({-2, 5});
   EXPECT_FALSE(level.is_known({-2, 5}));
+  level.set({0, 0}, 7.0);
+  EXPECT_EQ(level.value({0, 0}), 1.0);
+  for (const double value : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    level.set({0, 0}, value);
+    EXPECT_EQ(level.value({0, 0}), 0.0);
+  }
   level.set({100, 0}, 1.0);  // has no room
   EXPECT_FALSE(level.is_known({100, 0}));
 }
