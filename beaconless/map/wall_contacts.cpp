@@ -57,13 +57,13 @@ std::vector<Entry> enter_cells(std::span<const Segment2> walls, double join_m) {
   };
   std::vector<Entry> entries;
   entries.reserve(8 * walls.size());
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    const auto enter = [&, wall = static_cast<std::uint32_t>(i)](Cell cell) {
-      entries.push_back({cell, wall});
-    };
-    traverse_cells(in_cells(walls[i].a), in_cells(walls[i].b), enter);
+  std::uint32_t index = 0;
+  for (const Segment2& wall : walls) {
+    const auto enter = [&entries, index](Cell cell) { entries.push_back({cell, index}); };
+    ++index;
+    traverse_cells(in_cells(wall.a), in_cells(wall.b), enter);
     const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.01 * join_m);
-    for (const Eigen::Vector2d& end : {walls[i].a, walls[i].b}) {
+    for (const Eigen::Vector2d& end : {wall.a, wall.b}) {
       const Cell from = cell_of(in_cells(end - margin));
       const Cell to = cell_of(in_cells(end + margin));
       for (int y = from.y; y <= to.y; ++y)

@@ -138,7 +138,7 @@ RepeatedFind summary(const Finds& finds, std::vector<std::size_t>& members) {
   RepeatedFind found;
   PointFeature& feature = found.feature;
   for (int pass = 0; pass < 2; ++pass) {
-    const double count = static_cast<double>(members.size());
+    const auto count = static_cast<double>(members.size());
     feature = {};
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
     for (const std::size_t i : members) {

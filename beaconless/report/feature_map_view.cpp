@@ -25,14 +25,16 @@ struct Class {
   std::string_view words;
 };
 
+// In the order in which they are drawn: what is seldom found below the rest.
 constexpr std::array kClasses{
-    Class{0.5, Colour::blue, " that half of the views find that see it, or that are drawn"},
-    Class{0.25, Colour::green, " that a quarter find"}, Class{0.0, Colour::orange, " that fewer find"}};
+    Class{0.0, Colour::orange, " that fewer find"}, Class{0.25, Colour::green, " that a quarter find"},
+    Class{0.5, Colour::blue, " that half of the views find that see it, or that are drawn"}};
 
-const Class& class_of(const FeatureEvidence& evidence) {
+Colour colour_of(const FeatureEvidence& evidence) {
+  Colour colour = kClasses.front().colour;
   for (const Class& of : kClasses)
-    if (evidence.share >= of.least_share) return of;
-  return kClasses.back();
+    if (evidence.share >= of.least_share) colour = of.colour;
+  return colour;
 }
 
 std::string with(std::string_view classes, Colour colour) {
@@ -61,19 +63,19 @@ Picture draw_feature_map(const Map& map, const FeatureMap& features, const MapVi
   draw_world_grid(picture.svg, view);
   picture.svg.open_window(view.top_left_px, end);
   std::visit([&](const auto& building) { draw_building(picture, view, building, config); }, map);
-  // 2. Its features, those that are seldom found below the others.
-  for (auto of = kClasses.rbegin(); of != kClasses.rend(); ++of) {
+  // 2. Its features.
+  for (const Class& of : kClasses) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < features.features.size(); ++i) {
-      if (class_of(features.evidence[i]).colour != of->colour) continue;
-      draw_feature(picture.svg, view, features.features[i], of->colour, config.ellipse_sigma_count);
+      if (colour_of(features.evidence[i]) != of.colour) continue;
+      draw_feature(picture.svg, view, features.features[i], of.colour, config.ellipse_sigma_count);
       ++count;
     }
     if (count == 0) continue;
     std::string words = grouped(count);
     words += count == 1 ? " feature" : " features";
-    words += of->words;
-    picture.legend.push_back({words, Mark::ring, of->colour});
+    words += of.words;
+    picture.legend.push_back({words, Mark::ring, of.colour});
   }
   picture.svg.close();
   picture.svg.rect(view.top_left_px, end, "axis");
