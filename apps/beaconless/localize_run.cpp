@@ -109,6 +109,16 @@ Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& record
                "give one by --start x,y,deg"};
 }
 
+/// The reference at every scan: its own where its line tells one, because stamps of logs may repeat.
+Trajectory reference_of(const Replay& replay, const PosesOf& poses) {
+  if (poses.by_scan.empty()) return poses.trajectory;
+  Trajectory reference;
+  for (std::size_t i = 0; i < replay.estimates.size(); ++i)
+    if (const auto pose = poses.at(replay.scan_indices[i], replay.estimates[i].stamp))
+      reference.add(replay.estimates[i].stamp, *pose);
+  return reference;
+}
+
 /// What `--alone` says: how far from its reference each scan starts, a random way and turned to either side.
 Result<StartAt> starts_alone(const LocalizeWords& words, const PosesOf& poses) {
   const auto parts = split_words(words.alone, ", ");
@@ -174,12 +184,12 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   const auto start = start_pose(words, *recording, *first, pose_problems);
   if (!start) pose_problems.report(console);
   if (!start) return console.fail(start.error(), words.start.empty() ? exit_data : exit_usage);
-  std::optional<Trajectory> reference;
+  std::optional<PosesOf> reference;
   if (!words.reference.empty()) {
     if (words.reference == words.start_from) pose_problems.forget();
     auto poses = poses_of(words.reference, *recording, words.pose_topic, pose_problems);
     if (!poses) return console.fail(poses.error());
-    reference = poses->trajectory;
+    reference = *std::move(poses);
   }
   pose_problems.report(console);
   // 3. Localize.
@@ -188,11 +198,12 @@ int localize_run(const Console& console, const LocalizeWords& words) {
     return console.fail({words.map, localizer.error().what, localizer.error().remedy});
   if (!localizer) return console.fail(localizer.error(), exit_usage);
   (*localizer)->start_at(*start);
-  Run run{.config = *config, .map = shared_map, .reference = std::move(reference), .first_scan = first->scan};
+  Run run{.config = *config, .map = shared_map, .reference = {}, .first_scan = first->scan};
   problems.listening = true;
   run.replay = replay(*recording, *scans, **localizer, config->base_from_laser, console, start_at);
   if (run.replay.estimates.empty())
     return console.fail({words.recording, "its scans are gone", "did it change while it was read?"});
+  if (reference) run.reference = reference_of(run.replay, *reference);
   run.problems = problems.lines();
   problems.report(console);
   // 4. Write and tell what came of it.

@@ -62,6 +62,7 @@ Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Lo
     const double took_us = std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
     if (scan == nullptr) continue;
     run.estimates.push_back(estimate);
+    run.scan_indices.push_back(scan_index - 1);
     run.update_us.push_back(took_us);
     overlay.add(*scan, estimate.map_from_base * base_from_laser);
   }

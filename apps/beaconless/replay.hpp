@@ -17,6 +17,7 @@ namespace beaconless::cli {
 /// What a localizer made of a recording.
 struct Replay {
   std::vector<PoseEstimate> estimates;      ///< one a scan that was taken
+  std::vector<std::size_t> scan_indices;    ///< counted from 0 in the recording, one a scan that was taken
   std::vector<double> update_us;            ///< of update() alone, one a scan
   std::vector<report::PlacedScan> overlay;  ///< a few scans along the way, placed by their estimates
   std::uint64_t skipped_records = 0;
