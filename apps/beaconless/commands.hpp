@@ -20,5 +20,6 @@ void add_features(CLI::App& app, Console& console, int& exit_code);
 void add_params(CLI::App& app, Console& console, int& exit_code);
 void add_methods(CLI::App& app, Console& console, int& exit_code);
 void add_demo(CLI::App& app, Console& console, int& exit_code);
+void add_reproduce(CLI::App& app, Console& console, int& exit_code);
 
 }  // namespace beaconless::cli

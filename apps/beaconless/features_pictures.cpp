@@ -47,13 +47,17 @@ Picture counted(const std::string& what, double most_m, Count count) {
       {.width_px = 1000.0});
 }
 
-/// A small picture of segments alone; its title says what they are.
-TitledPicture segmented(const Scan& scan, std::vector<ScanSegment> segments, const std::string& title) {
+std::vector<ScanSegment> pieces_by(const Scan& scan, double epsilon_m) {
+  return split(scan, segments_by(scan, kShownThreshold_m), {.epsilon_m = epsilon_m});
+}
+
+/// A picture of segments alone.
+Picture segmented(const Scan& scan, std::vector<ScanSegment> segments, const report::ScanViewConfig& view) {
   report::ScanLayers layers;
   layers.segments = std::move(segments);
-  Picture picture = report::draw_scan(scan, layers, {.width_px = 317.0, .max_height_px = 460.0});
+  Picture picture = report::draw_scan(scan, layers, view);
   picture.legend = {{fmt::format("{} segments", layers.segments.size()), report::Mark::dots, Colour::blue}};
-  return {title, std::move(picture)};
+  return picture;
 }
 
 }  // namespace
@@ -74,28 +78,46 @@ std::string features_picture(const Scan& scan, std::span<const Detector> wanted,
   return report::svg_sheet(pictures);
 }
 
+Picture segments_by_threshold(const Scan& scan) {
+  return counted("distance threshold D_thd", 0.5, [&](double d) { return segments_by(scan, d).size(); });
+}
+
+Picture pieces_by_epsilon(const Scan& scan) {
+  return counted("epsilon", 0.5, [&](double epsilon) { return pieces_by(scan, epsilon).size(); });
+}
+
+Picture segments_picture(const Scan& scan, double threshold_m, const report::ScanViewConfig& view) {
+  return segmented(scan, segments_by(scan, threshold_m), view);
+}
+
+Picture pieces_picture(const Scan& scan, double epsilon_m, const report::ScanViewConfig& view) {
+  return segmented(scan, pieces_by(scan, epsilon_m), view);
+}
+
+Picture dissertation_corners_picture(const Scan& scan, const report::ScanViewConfig& view) {
+  report::ScanLayers layers;
+  layers.corners = find_corners(scan, corners_of_the_dissertation(), layers.lines);
+  return report::draw_scan(scan, layers, view);
+}
+
 std::string sweep_picture(const Scan& scan, const DetectorsConfig& config, const std::string& name) {
+  constexpr report::ScanViewConfig kSmall{.width_px = 317.0, .max_height_px = 460.0};
   std::vector<TitledPicture> pictures;
   pictures.push_back(
-      {"Figure 4.5. " + name + ": segments by distance threshold D_thd",
-       counted("distance threshold D_thd", 0.5, [&](double d) { return segments_by(scan, d).size(); })});
+      {"Figure 4.5. " + name + ": segments by distance threshold D_thd", segments_by_threshold(scan)});
   for (const double threshold : {0.05, 0.10, 0.20})
-    pictures.push_back(segmented(scan, segments_by(scan, threshold),
-                                 fmt::format("Figure 4.6. Segments by D_thd = {:.2f} m", threshold)));
-  const auto first = segments_by(scan, kShownThreshold_m);
-  const auto pieces = [&](double epsilon_m) { return split(scan, first, {.epsilon_m = epsilon_m}); };
+    pictures.push_back({fmt::format("Figure 4.6. Segments by D_thd = {:.2f} m", threshold),
+                        segments_picture(scan, threshold, kSmall)});
   for (const double epsilon : {0.05, kShownEpsilon_m, 0.30})
-    pictures.push_back(
-        segmented(scan, pieces(epsilon), fmt::format("Figure 4.7. Split by epsilon = {:.2f} m", epsilon)));
+    pictures.push_back({fmt::format("Figure 4.7. Split by epsilon = {:.2f} m", epsilon),
+                        pieces_picture(scan, epsilon, kSmall)});
   pictures.push_back(
       {fmt::format(
            "Figure 4.8. Pieces by epsilon of the split (Douglas-Peucker), D_thd = {:.2f} m as in figure 4.7",
            kShownThreshold_m),
-       counted("epsilon", 0.5, [&](double epsilon) { return pieces(epsilon).size(); })});
-  report::ScanLayers dissertation;
-  dissertation.corners = find_corners(scan, corners_of_the_dissertation(), dissertation.lines);
+       pieces_by_epsilon(scan)});
   pictures.push_back({"Figure 4.9. Corners of least-squares lines, parameters of the dissertation",
-                      report::draw_scan(scan, dissertation)});
+                      dissertation_corners_picture(scan, {})});
   pictures.push_back({"The same with the parameters of this run",
                       report::draw_scan(scan, corner_layers(scan, config.corners))});
   return report::svg_sheet(pictures);

@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   add_methods(app, console, exit_code);
   add_params(app, console, exit_code);
   add_demo(app, console, exit_code);
+  add_reproduce(app, console, exit_code);
 
   try {
     if (std::string_view(BEACONLESS_BUILD_TYPE) == "Debug")

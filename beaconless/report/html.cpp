@@ -35,7 +35,7 @@ h2{font-size:18px;margin:32px 0 12px}
 .card .value{font-size:26px;line-height:1.25;font-weight:650;font-variant-numeric:tabular-nums;white-space:nowrap}
 .card .value small{font-size:15px;font-weight:400;color:var(--soft);margin-left:4px}
 .card .note{color:var(--soft);font-size:13px;line-height:1.35}
-.row{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:12px}
+.row{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:12px;margin:0 0 12px}
 figure{margin:0 0 12px;padding:14px 16px 12px;min-width:0;break-inside:avoid}
 .row figure{margin:0}
 figure>svg{width:100%;height:auto}
@@ -46,8 +46,8 @@ figcaption{color:var(--soft);font-size:13.5px;line-height:1.4;margin-top:4px}
 .mark{flex:none}
 .table{overflow-x:auto;width:fit-content;max-width:100%;margin:0 0 12px;break-inside:avoid}
 table{border-collapse:collapse;min-width:320px;font-variant-numeric:tabular-nums}
-caption{text-align:left;padding:12px 16px 6px;font-weight:600}
-th,td{padding:6px 16px;text-align:right;white-space:nowrap}
+caption{text-align:left;padding:12px 12px 6px;font-weight:600}
+th,td{padding:6px 12px;text-align:right;white-space:nowrap}
 th{color:var(--soft);font-weight:500;font-size:13px;border-bottom:1px solid var(--rule)}
 tbody tr+tr>*{border-top:1px solid var(--rule)}
 th:first-child,td:first-child{text-align:left}

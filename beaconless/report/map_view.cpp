@@ -25,8 +25,14 @@ std::size_t count_outside(const WorldView& view, std::span<const PoseEstimate> e
 
 Picture draw_map(const Map& map, std::span<const PoseEstimate> estimates, const Trajectory& reference,
                  std::span<const PlacedScan> scans, const MapViewConfig& config) {
-  const WorldView view =
-      world_view(bounds_of_run(map, estimates, reference), config.width_px, config.max_height_px);
+  return draw_map(map, estimates, reference, scans, {}, config);
+}
+
+Picture draw_map(const Map& map, std::span<const PoseEstimate> estimates, const Trajectory& reference,
+                 std::span<const PlacedScan> scans, std::span<const MapMarks> marks,
+                 const MapViewConfig& config) {
+  const WorldView view = world_view(config.window ? *config.window : bounds_of_run(map, estimates, reference),
+                                    config.width_px, config.max_height_px);
   const Eigen::Vector2d end = view.bottom_right_px();
   Picture picture{config.width_px, end.y() + kBelowWorld_px, {}, "map with the path of the robot", {}, {}};
   draw_world_grid(picture.svg, view);
@@ -37,6 +43,7 @@ Picture draw_map(const Map& map, std::span<const PoseEstimate> estimates, const 
   draw_ellipses(picture, view, estimates, config);
   draw_estimates(picture, view, estimates);
   draw_ends(picture, view, estimates);
+  for (const MapMarks& of : marks) draw_marks(picture, view, of);
   picture.svg.close();
   picture.svg.rect(view.top_left_px, end, "axis");
   draw_scale_bar(picture.svg, view);
