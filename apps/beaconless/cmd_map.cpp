@@ -7,6 +7,7 @@
 #include "beaconless/map/grid_builder.hpp"
 
 #include "commands.hpp"
+#include "map_slam.hpp"
 #include "poses_of.hpp"
 #include "words.hpp"
 
@@ -21,6 +22,7 @@ struct MapWords {
   std::string base_from_laser;
   std::string out;
   GridBuilderConfig builder;
+  MapSlamWords slam;
 };
 
 /// Where the laser sits: as told, else as the recording tells it with its poses, else in the base.
@@ -84,15 +86,52 @@ int build(const Console& console, const MapWords& words) {
   return exit_good;
 }
 
+/// The options that both ways share, and whether those of one were given to the other.
+int build_by_slam(const Console& console, const CLI::App& command, const MapWords& words) {
+  for (const char* option : {"--poses", "--pose-topic"})
+    if (command.count(option) > 0)
+      return console.fail({option, "SLAM finds the poses itself", "leave it out, or leave out --slam"},
+                          exit_usage);
+  MapSlamWords slam = words.slam;
+  slam.recording = words.recording;
+  slam.scan = words.scan;
+  slam.base_from_laser = words.base_from_laser;
+  slam.out = words.out;
+  if (command.count("--resolution") > 0) slam.resolution_m = words.builder.resolution_m;
+  if (command.count("--p-occupied") > 0) slam.p_occupied = words.builder.p_occupied;
+  if (command.count("--p-free") > 0) slam.p_free = words.builder.p_free;
+  return map_by_slam(console, slam);
+}
+
+int build_either_way(const Console& console, const CLI::App& command, const MapWords& words) {
+  if (!words.slam.method.empty()) return build_by_slam(console, command, words);
+  for (const char* option : {"--out-poses", "--start", "--config", "--set"})
+    if (command.count(option) > 0)
+      return console.fail({option, "it goes with --slam only", "add --slam hector, or leave it out"},
+                          exit_usage);
+  return build(console, words);
+}
+
 }  // namespace
 
 void add_map(CLI::App& app, Console& console, int& exit_code) {
   auto* map = app.add_subcommand("map", "Make maps");
   map->require_subcommand(1);
-  auto* command = map->add_subcommand("build", "An occupancy grid from a recording with known poses");
+  auto* command =
+      map->add_subcommand("build", "An occupancy grid from a recording, with known poses or without");
   auto words = std::make_shared<MapWords>();
   command->add_option("recording", words->recording, "The recording")->required();
   command->add_option("--out", words->out, "The map's YAML; the picture is written beside it")->required();
+  command
+      ->add_option("--slam", words->slam.method,
+                   "Without any poses: find them on the way, by this method (hector)")
+      ->check(CLI::IsMember({"hector"}));
+  command->add_option("--out-poses", words->slam.out_poses, "The poses found by --slam, a TUM file");
+  command->add_option("--start", words->slam.start,
+                      "Where --slam begins in the map, x,y,deg (default 0,0,0)");
+  command->add_option("--config", words->slam.config, "Parameters of --slam from a YAML file");
+  command->add_option("--set", words->slam.set, "One parameter of --slam, name=value; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--poses", words->poses, "Poses of the base: a TUM file, or 'recorded'")
       ->capture_default_str();
   command->add_option("--pose-topic", words->pose_topic,
@@ -103,7 +142,9 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
       ->capture_default_str();
   command->add_option("--p-occupied", words->builder.p_occupied, "Probability of a cell where a beam ends")
       ->capture_default_str();
-  command->add_option("--p-free", words->builder.p_free, "Probability of a cell that a beam crosses")
+  command
+      ->add_option("--p-free", words->builder.p_free,
+                   "Probability of a cell that a beam crosses (with --slam 0.4)")
       ->capture_default_str();
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
@@ -113,8 +154,10 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
       ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
       ->check(not_from_zero_on, "NUMBER >= 0");
   command->footer(
-      "Example:  beaconless map build drive.log --poses recorded --resolution 0.05 --out hall.yaml");
-  command->callback([&console, &exit_code, words] { exit_code = build(console, *words); });
+      "Examples: beaconless map build drive.log --poses recorded --resolution 0.05 --out hall.yaml\n"
+      "          beaconless map build drive.log --slam hector --out hall.yaml --out-poses drive.tum");
+  command->callback(
+      [&console, &exit_code, words, command] { exit_code = build_either_way(console, *command, *words); });
 }
 
 }  // namespace beaconless::cli

@@ -31,7 +31,7 @@ LogOddsGrid::LogOddsGrid(double resolution_m, const LogOddsModel& model, std::in
 
 double LogOddsGrid::probability(int log_odds) { return 1.0 / (1.0 + std::exp(-log_odds / kUnit)); }
 
-Result<Done> LogOddsGrid::make_room(const Eigen::Vector2d& laser_map, std::span<const BeamWay> ways) {
+Result<Done> LogOddsGrid::cover(const Eigen::Vector2d& laser_map, std::span<const BeamWay> ways) {
   const Cell start = cell_of(laser_map / resolution_m_);
   Box needed{start, start};
   for (const BeamWay& way : ways) {

@@ -37,6 +37,9 @@ class LogOddsGrid {
   /// In: probabilities and limits as GridBuilderConfig allows them; never more than `max_cells`.
   LogOddsGrid(double resolution_m, const LogOddsModel& model, std::int64_t max_cells);
 
+  /// Makes room for the beams of a scan. In, errors and cost: as for add().
+  Result<Done> cover(const Eigen::Vector2d& laser_map, std::span<const BeamWay> ways);
+
   /// Takes in the beams of one scan. In: finite points within 1e9 cells.
   ///
   /// Errors, and then nothing is changed: more than max_cells. Cost: the cells under the beams; growing
@@ -50,7 +53,7 @@ class LogOddsGrid {
   template <class OnChange>
   Result<Done> add(const Eigen::Vector2d& laser_map, std::span<const BeamWay> ways, OnChange&& on_change) {
     if (ways.empty()) return Done{};
-    if (auto room = make_room(laser_map, ways); !room) return room;
+    if (auto room = cover(laser_map, ways); !room) return room;
     begin_scan();
     const auto update = [&](Cell cell, int evidence, std::uint16_t mark) {
       CellState& state = at(cell);
@@ -96,7 +99,6 @@ class LogOddsGrid {
     std::uint16_t mark = 0;
   };
 
-  Result<Done> make_room(const Eigen::Vector2d& laser_map, std::span<const BeamWay> ways);
   Result<Done> grow_to(const Box& needed);
   void begin_scan();
   CellState& at(Cell cell) { return cells_[place(cell)]; }

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_slam.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "beaconless/eval/errors.hpp"
+#include "beaconless/io/config_yaml.hpp"
+#include "beaconless/io/grid_io.hpp"
+#include "beaconless/io/tum.hpp"
+#include "beaconless/slam/hector_slam.hpp"
+
+namespace beaconless::cli {
+namespace {
+
+/// The parameters as --set and --config name them.
+struct SlamParameters {
+  HectorSlamConfig hector_slam;
+};
+
+void describe(Fields& fields, SlamParameters& parameters) {
+  fields.section("hector_slam", parameters.hector_slam);
+}
+
+/// Defaults, then the file, then the options, then each --set.
+Result<HectorSlamConfig> config_of(const MapSlamWords& words) {
+  SlamParameters parameters;
+  HectorSlamConfig& config = parameters.hector_slam;
+  const auto fields = fields_of(parameters);
+  if (!words.config.empty())
+    if (auto read = io::read_config(words.config, fields); !read) return read.error();
+  config.map.resolution_m = words.resolution_m.value_or(config.map.resolution_m);
+  config.map.p_occupied = words.p_occupied.value_or(config.map.p_occupied);
+  config.map.p_free = words.p_free.value_or(config.map.p_free);
+  if (!words.base_from_laser.empty()) {
+    const auto pose = pose_from_words("--base-from-laser", words.base_from_laser);
+    if (!pose) return pose.error();
+    config.base_from_laser = *pose;
+  }
+  if (auto set = set_parameters(fields, words.set); !set) return set.error();
+  return config;
+}
+
+/// What a drive through a recording gave.
+struct SlamRun {
+  std::vector<PoseEstimate> estimates;  ///< one a scan that was taken
+  std::vector<double> update_us;
+
+  std::map<std::string_view, int> status_counts() const {
+    std::map<std::string_view, int> counts;
+    for (const PoseEstimate& estimate : estimates) ++counts[to_string(estimate.status)];
+    return counts;
+  }
+  double length_m() const {
+    double length = 0.0;
+    for (std::size_t i = 1; i < estimates.size(); ++i)
+      length += distance_m(estimates[i - 1].map_from_base, estimates[i].map_from_base);
+    return length;
+  }
+};
+
+std::uint64_t scans_of(const io::Recording& recording) {
+  for (const io::Topic& topic : recording.topics())
+    if (topic.name == recording.scan_topic()) return topic.count;
+  return 0;
+}
+
+SlamRun drive(const Console& console, const io::Recording& recording, const io::ScanSelection& scans,
+              HectorSlam& slam) {
+  using Clock = std::chrono::steady_clock;
+  SlamRun run;
+  Progress progress(console, "scan", scans_of(recording));
+  std::size_t scan_index = 0;
+  for (const Event& event : recording) {
+    const bool is_scan = std::holds_alternative<Scan>(event);
+    const std::size_t index = scan_index;
+    if (is_scan) {
+      ++scan_index;
+      progress.step();
+    }
+    if (is_scan && !scans.wants(index)) continue;
+    const auto begin = Clock::now();
+    const PoseEstimate estimate = slam.update(event);
+    if (!is_scan) continue;
+    run.update_us.push_back(std::chrono::duration<double, std::micro>(Clock::now() - begin).count());
+    run.estimates.push_back(estimate);
+    if (scans.done_after(index)) break;
+  }
+  return run;
+}
+
+Result<Done> write_poses(const std::string& path, const SlamRun& run) {
+  if (path.empty()) return Done{};
+  io::TumWriter poses(path);
+  for (const PoseEstimate& estimate : run.estimates) poses.write(estimate);
+  return poses.finish();
+}
+
+void tell(const Console& console, const MapSlamWords& words, const OccupancyGrid& grid,
+          const HectorSlam& slam, SlamRun& run) {
+  std::string counts;
+  for (const auto& [status, count] : run.status_counts())
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, status);
+  const eval::Statistics times = eval::statistics_of(std::move(run.update_us));
+  console.say(fmt::format("{}: {} x {} cells of {} m", words.out, grid.width_cells, grid.height_cells,
+                          grid.resolution_m));
+  console.say(fmt::format("{} scans, {:.1f} m, {} of them drawn: {}", run.estimates.size(), run.length_m(),
+                          slam.map().scan_count(), counts));
+  console.say(fmt::format("update: median {:.0f} µs, p95 {:.0f} µs, max {:.0f} µs", times.median, times.p95,
+                          times.max));
+  if (!words.out_poses.empty()) console.say(words.out_poses + ": the poses");
+  console.result({{"out", words.out},
+                  {"width_cells", grid.width_cells},
+                  {"height_cells", grid.height_cells},
+                  {"resolution_m", grid.resolution_m},
+                  {"scans", run.estimates.size()},
+                  {"drawn", slam.map().scan_count()},
+                  {"length_m", run.length_m()},
+                  {"status_counts", run.status_counts()},
+                  {"update_us", {{"median", times.median}, {"p95", times.p95}, {"max", times.max}}}});
+}
+
+}  // namespace
+
+int map_by_slam(const Console& console, const MapSlamWords& words) {
+  // 1. What was asked for.
+  const auto config = config_of(words);
+  if (!config) return console.fail(config.error(), exit_usage);
+  const auto scans = words.scan.selection();
+  if (!scans) return console.fail(scans.error(), exit_usage);
+  const auto start = pose_from_words("--start", words.start.empty() ? "0,0,0" : words.start);
+  if (!start) return console.fail(start.error(), exit_usage);
+  auto slam = HectorSlam::make(*config, *start);
+  if (!slam) return console.fail(slam.error(), exit_usage);
+  // 2. Drive.
+  ProblemLog problems;
+  const auto recording = open_recording(words.recording, words.scan, problems);
+  if (!recording) return console.fail(recording.error());
+  SlamRun run = drive(console, *recording, *scans, slam.value());
+  problems.report(console);
+  // 3. Write.
+  const OccupancyGrid grid = slam->grid();
+  if (grid.occupancy_percent.empty())
+    return console.fail(
+        {words.recording, "no scan began a map",
+         run.estimates.empty() ? "check --topic and --scans" : std::string(run.estimates.back().reason)});
+  if (auto written = io::write_grid(words.out, grid); !written) return console.fail(written.error());
+  if (auto written = write_poses(words.out_poses, run); !written) return console.fail(written.error());
+  // 4. Tell.
+  const bool is_lost = run.estimates.back().status == Status::lost;
+  const std::string_view reason = run.estimates.back().reason;
+  tell(console, words, grid, slam.value(), run);
+  if (!is_lost) return exit_good;
+  console.warn(fmt::format("the robot is lost at the end of the recording: {}", reason));
+  return exit_lost;
+}
+
+}  // namespace beaconless::cli
