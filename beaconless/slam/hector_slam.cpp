@@ -171,6 +171,7 @@ SlamFit HectorSlam::search(const SlamFit& first, const Prediction& prediction, c
   window.window_deg = reach.far_deg;
   search_pyramid(points_, level_to_search(map_.pyramid()), prediction.map_from_base * config_.base_from_laser,
                  window, search_scratch_, found_);
+  found_.push_back({last_.map_from_base * config_.base_from_laser, 0.0});  // where HectorSLAM starts
   SlamFit best = first;
   double to_beat = worth(first, prediction, reach) + kClearlyBetter;
   for (const FoundPose& start : found_) {
