@@ -132,6 +132,9 @@ TEST(PlanCorners, EndsThatAreNearMeetAndOthersDoNot) {
       EXPECT_NEAR(degrees(corner.opening_rad), 90.0, 1e-9);
     }
   }
+  // Obliquely, it crosses further from its end than that; it still only ends there.
+  EXPECT_EQ(find_plan_corners({{{{-3, 0}, {3, 0}}, {{2, 0.5}, {-0.03, -0.008}}}}, {.join_m = 0.01}).size(),
+            2U);
 }
 
 TEST(PlanCorners, SharpAndFlatOnesGoByTheAngleBetweenTheLines) {
