@@ -7,6 +7,7 @@
 #include "beaconless/map/grid_builder.hpp"
 
 #include "commands.hpp"
+#include "map_features_run.hpp"
 #include "map_slam.hpp"
 #include "poses_of.hpp"
 #include "words.hpp"
@@ -115,8 +116,9 @@ int build_either_way(const Console& console, const CLI::App& command, const MapW
 }  // namespace
 
 void add_map(CLI::App& app, Console& console, int& exit_code) {
-  auto* map = app.add_subcommand("map", "Make maps");
+  auto* map = app.add_subcommand("map", "Make maps, and look at them");
   map->require_subcommand(1);
+  add_map_features(*map, console, exit_code);
   auto* command =
       map->add_subcommand("build", "An occupancy grid from a recording, with known poses or without");
   auto words = std::make_shared<MapWords>();
