@@ -150,6 +150,9 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
       ->capture_default_str();
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
+  command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
+      ->check(CLI::IsMember({"first", "middle", "last"}))
+      ->capture_default_str();
   command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
       ->check(not_from_zero_on, "NUMBER >= 0");
   command

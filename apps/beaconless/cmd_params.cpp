@@ -7,6 +7,7 @@
 #include "beaconless/localize/make_localizer.hpp"
 
 #include "commands.hpp"
+#include "slam_parameters.hpp"
 
 namespace beaconless::cli {
 namespace {
@@ -42,9 +43,12 @@ nlohmann::json names_of(const Named& all) {
   return names;
 }
 
-int params(const Console& console, bool markdown, bool features) {
+int params(const Console& console, bool markdown, bool features, bool slam) {
   nlohmann::json result;
-  if (features) {
+  if (slam) {
+    SlamParameters parameters;
+    result = {{"parameters", list_of(console, fields_of(parameters), markdown)}};
+  } else if (features) {
     DetectorsConfig config;
     result = {{"parameters", list_of(console, fields_of(config), markdown)},
               {"detectors", names_of(detectors())}};
@@ -75,10 +79,13 @@ void add_params(CLI::App& app, Console& console, int& exit_code) {
   auto markdown = std::make_shared<bool>(false);
   auto features = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown, "As a Markdown table");
+  auto slam = std::make_shared<bool>(false);
   command->add_flag("--features", *features,
                     "Those of the detectors (beaconless features), not of the localizers");
-  command->callback(
-      [&console, &exit_code, markdown, features] { exit_code = params(console, *markdown, *features); });
+  command->add_flag("--slam", *slam, "Those of beaconless map build --slam")->excludes("--features");
+  command->callback([&console, &exit_code, markdown, features, slam] {
+    exit_code = params(console, *markdown, *features, *slam);
+  });
 }
 
 }  // namespace beaconless::cli

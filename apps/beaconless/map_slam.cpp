@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
@@ -13,17 +14,10 @@
 #include "beaconless/io/tum.hpp"
 #include "beaconless/slam/hector_slam.hpp"
 
+#include "slam_parameters.hpp"
+
 namespace beaconless::cli {
 namespace {
-
-/// The parameters as --set and --config name them.
-struct SlamParameters {
-  HectorSlamConfig hector_slam;
-};
-
-void describe(Fields& fields, SlamParameters& parameters) {
-  fields.section("hector_slam", parameters.hector_slam);
-}
 
 /// Defaults, then the file, then the options, then each --set.
 Result<HectorSlamConfig> config_of(const MapSlamWords& words) {
@@ -42,6 +36,32 @@ Result<HectorSlamConfig> config_of(const MapSlamWords& words) {
   }
   if (auto set = set_parameters(fields, words.set); !set) return set.error();
   return config;
+}
+
+/// Refuses to write over what is read, or two things into one file.
+Result<Done> check_paths(const MapSlamWords& words) {
+  const auto is_same = [](const std::string& a, const std::string& b) {
+    std::error_code none;
+    return !a.empty() && !b.empty() && (a == b || std::filesystem::equivalent(a, b, none));
+  };
+  for (const std::string& out : {words.out, words.out_poses})
+    for (const std::string& in : {words.recording, words.config})
+      if (is_same(out, in))
+        return Error{out, "this file is read, and would be written over", "give another name"};
+  if (is_same(words.out, words.out_poses))
+    return Error{words.out, "map and poses would go into the same file", "give two names"};
+  return Done{};
+}
+
+/// Finds out before a long run whether its files will have a folder.
+Result<Done> check_folders(const MapSlamWords& words) {
+  for (const std::string& out : {words.out, words.out_poses}) {
+    const auto folder = std::filesystem::path(out).parent_path();
+    std::error_code none;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, none))
+      return Error{out, "there is no such folder", "make it first, or choose another name"};
+  }
+  return Done{};
 }
 
 /// What a drive through a recording gave.
@@ -135,6 +155,8 @@ int map_by_slam(const Console& console, const MapSlamWords& words) {
   if (!start) return console.fail(start.error(), exit_usage);
   auto slam = HectorSlam::make(*config, *start);
   if (!slam) return console.fail(slam.error(), exit_usage);
+  if (auto paths = check_paths(words); !paths) return console.fail(paths.error(), exit_usage);
+  if (auto folders = check_folders(words); !folders) return console.fail(folders.error());
   // 2. Drive.
   ProblemLog problems;
   const auto recording = open_recording(words.recording, words.scan, problems);
