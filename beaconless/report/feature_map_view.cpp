@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/report/feature_map_view.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -26,9 +27,9 @@ struct Class {
 };
 
 // In the order in which they are drawn: what is seldom found below the rest.
-constexpr std::array kClasses{
-    Class{0.0, Colour::orange, " that fewer find"}, Class{0.25, Colour::green, " that a quarter find"},
-    Class{0.5, Colour::blue, " that half of the views find that see it, or that are drawn"}};
+constexpr std::array kClasses{Class{0.0, Colour::orange, ", found by fewer"},
+                              Class{0.25, Colour::green, ", found by a quarter"},
+                              Class{0.5, Colour::blue, ", drawn or found by half of the views that see it"}};
 
 Colour colour_of(const FeatureEvidence& evidence) {
   Colour colour = kClasses.front().colour;
@@ -63,7 +64,8 @@ Picture draw_feature_map(const Map& map, const FeatureMap& features, const MapVi
   draw_world_grid(picture.svg, view);
   picture.svg.open_window(view.top_left_px, end);
   std::visit([&](const auto& building) { draw_building(picture, view, building, config); }, map);
-  // 2. Its features.
+  // 2. Its features; the legend begins with the best.
+  const auto building_entries = static_cast<std::ptrdiff_t>(picture.legend.size());
   for (const Class& of : kClasses) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < features.features.size(); ++i) {
@@ -77,6 +79,7 @@ Picture draw_feature_map(const Map& map, const FeatureMap& features, const MapVi
     words += of.words;
     picture.legend.push_back({words, Mark::ring, of.colour});
   }
+  std::reverse(picture.legend.begin() + building_entries, picture.legend.end());
   picture.svg.close();
   picture.svg.rect(view.top_left_px, end, "axis");
   draw_scale_bar(picture.svg, view);

@@ -51,7 +51,7 @@ TEST_F(MapFeatures, WritesWhatTheLibraryFinds) {
 }
 
 TEST_F(MapFeatures, TakesParametersByTheirNames) {
-  const Ran ran = run({"map", "features", plan, "--set", "features.corners.min_arm_m=3", "--json"});
+  const Ran ran = run({"map", "features", plan, "--set", "features.corners.min_arm_m=0.55", "--json"});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Ran all = run({"map", "features", plan, "--json"});
   EXPECT_LT(ran.json()["detectors"][0]["features"], all.json()["detectors"][0]["features"]);

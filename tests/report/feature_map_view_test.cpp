@@ -35,8 +35,8 @@ TEST(FeatureMapView, ShowsEachFeatureOnceInTheColourOfItsShare) {
   EXPECT_EQ(count(picture.svg.body(), "marker green"), 1U);
   EXPECT_EQ(count(picture.svg.body(), "marker orange"), 1U);
   EXPECT_EQ(xml_fault(svg_file(picture)), "");
-  EXPECT_THAT(svg_file(picture), HasSubstr("2 features that half"));
-  EXPECT_THAT(svg_file(picture), HasSubstr("1 feature that fewer find"));
+  EXPECT_THAT(svg_file(picture), HasSubstr("2 features, drawn or found by half"));
+  EXPECT_THAT(svg_file(picture), HasSubstr("1 feature, found by fewer"));
 }
 
 TEST(FeatureMapView, ShowsCovariancesThatCanBeSeen) {
