@@ -137,8 +137,9 @@ std::string caution(const Comparison& comparison) {
   if (static_cast<double>(coasted) < kNoticeableShare * static_cast<double>(experiment->errors.size()))
     return "";
   return fmt::format(
-      "{}: {} of {} scans were degraded and {} lost; there the pose coasts on its prediction, and a robot "
-      "that began at the truth and stands fares well with that.",
+      "{}: {} of {} scans were degraded and {} lost; there the pose coasts on its prediction, and after a "
+      "true "
+      "start that looks better than it is.",
       row_name(comparison), experiment->degraded_count, experiment->errors.size(), experiment->lost_count);
 }
 

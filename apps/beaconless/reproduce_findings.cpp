@@ -41,6 +41,7 @@ std::string against_the_printed(const Reproduction& r) {
       fmt::format("On tape-measured plans {} of {} printed means and RMSEs are met or undercut",
                   score.at_or_below, score.compared);
   std::vector<std::string> exceptions;
+  exceptions.reserve(above.size());
   for (const auto& [number, rows] : above)
     exceptions.push_back(fmt::format("in Table {} {}", number, joined(rows)));
   return text + (exceptions.empty() ? "." : "; above them are, " + joined(exceptions) + ".");

@@ -50,9 +50,9 @@ void put_beginning(report::Page& page, const Reproduction& r) {
   page.paragraph(fmt::format(
       "Three maps: the exact plan; the same as measured with a tape (each wall off by 8 mm and turned by "
       "0.2°, standard deviations, seed {}), which stands beside the printed figures because the dissertation "
-      "measured its room so; and the exact plan drawn into cells of 5 cm, every wall {:.1f} mm from the "
-      "middle of its cells, as a wall is on average. Methods run with their default parameters.",
-      r.tape_seed, 50.0 * kGridPhase_cells));
+      "measured its room so; and the exact plan drawn into cells of 5 cm, walls {:.1f} mm from the "
+      "middle of their cells, as walls are on average. Methods run with their default parameters.",
+      r.tape_seed, 50.0 * (0.5 - kGridPhase_cells)));
   const Score score = score_of(r.comparisons);
   const auto findings = findings_of(r);
   page.verdict(score.compared > 0 && score.at_or_below == score.compared ? report::Verdict::good

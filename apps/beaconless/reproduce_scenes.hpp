@@ -27,9 +27,9 @@ std::string_view words(MapKind kind);
 /// "exact", "tape", "grid", for files.
 std::string_view name_of(MapKind kind);
 
-/// The wall that is drawn into cells lies this far from the middle of its cell, in cells. The rooms' walls
-/// lie at multiples of 5 cm: a phase of 0.5 would draw all of them exactly, 0 all of them half a cell off; a
-/// quarter is what a wall is off by on average.
+/// Where in its cell the origin of the map lies when the plan is drawn into cells. Nearly all walls of the
+/// rooms lie at multiples of 5 cm: 0.5 would draw them exactly and 0 half a cell off. With a quarter they are
+/// a quarter of a cell off, as walls anywhere are on average.
 inline constexpr double kGridPhase_cells = 0.25;
 
 /// A scenario with its scans and the maps to localize on.

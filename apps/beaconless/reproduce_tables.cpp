@@ -24,10 +24,10 @@ std::string states(const Experiment& e) {
   return fmt::format("{} / {} / {}", e.ok_count, e.degraded_count, e.lost_count);
 }
 
-/// " 12d 3l": the scans that were not ok, for the end of a cell.
+/// ", 12d, 3l": the scans that were not ok, for the end of a cell.
 std::string not_ok(const Experiment& e) {
-  return (e.degraded_count == 0 ? "" : fmt::format(" {}d", e.degraded_count)) +
-         (e.lost_count == 0 ? "" : fmt::format(" {}l", e.lost_count));
+  return (e.degraded_count == 0 ? "" : fmt::format(", {}d", e.degraded_count)) +
+         (e.lost_count == 0 ? "" : fmt::format(", {}l", e.lost_count));
 }
 
 }  // namespace
@@ -99,17 +99,9 @@ report::Table overview_matrix(MapKind map, std::span<const Experiment> experimen
 report::Table overview_table(MapKind map, std::span<const Experiment> experiments) {
   report::Table table;
   table.caption = fmt::format("On the {}: position [mm], heading [°], scans by status", words(map));
-  table.columns = {"Scenario and method",
-                   "mean",
-                   "RMSE",
-                   "SD",
-                   "max",
-                   "min",
-                   "heading mean",
-                   "RMSE",
-                   "max",
-                   "ok / degraded / lost",
-                   "largest error while ok"};
+  table.columns = {
+      "Scenario and method",  "mean",        "RMSE", "SD", "max", "min", "heading mean", "RMSE", "max",
+      "ok / degraded / lost", "max while ok"};
   for (const Experiment& e : experiments) {
     if (e.map != map) continue;
     auto& row = table.rows.emplace_back();

@@ -124,7 +124,11 @@ TEST_F(Reproduce, WritesOnePageWithEveryTableAndFigureAndTheNumbersBesideIt) {
   for (const auto& row : experiments) {
     EXPECT_TRUE(is_run(row.at("method")));
     EXPECT_EQ(row.at("scans"), "20");
-    EXPECT_GE(parse_double(row.at("rmse_m")).value(), parse_double(row.at("mean_m")).value() - 1e-9);
+    const auto of = [&](const char* column) { return parse_double(row.at(column)).value(); };
+    EXPECT_NEAR(of("rmse_m"), std::hypot(of("mean_m"), of("sd_m")), 1e-9);
+    EXPECT_NEAR(of("rmse_m"), std::hypot(of("offset_x_m"), of("offset_y_m"), of("scatter_m")), 1e-9);
+    EXPECT_NEAR(of("rmse_deg"), std::hypot(of("offset_deg"), of("scatter_deg")), 1e-9);
+    EXPECT_EQ(of("ok") + of("degraded") + of("lost"), 20.0);
   }
 }
 
