@@ -54,8 +54,11 @@ Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Lo
       const std::size_t index = scan_index++;
       wanted_more = !scans.done_after(index);
       if (!scans.wants(index)) continue;
-      if (start_at)
-        if (const auto start = start_at(index, scan->stamp())) localizer.start_at(*start);
+      if (start_at) {
+        const auto start = start_at(index, scan->stamp());
+        if (!start) continue;
+        localizer.start_at(*start);
+      }
     }
     const auto begin = Clock::now();
     const PoseEstimate estimate = localizer.update(*event);

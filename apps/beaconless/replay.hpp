@@ -23,7 +23,7 @@ struct Replay {
   std::uint64_t skipped_records = 0;
 };
 
-/// Where the robot is told to stand before a scan is fed; nothing: where it believes to be.
+/// Where the robot is told to stand before a scan is fed; a scan without is left out.
 using StartAt = std::function<std::optional<Pose2>(std::size_t scan_index, Stamp stamp)>;
 
 /// Feeds the events of a recording to a localizer, scans by the selection.

@@ -17,7 +17,6 @@ struct FeatureMatcherConfig {
   PointFeaturesConfig detecting;
   FeatureIcpConfig icp;
   std::optional<FeatureTrackerConfig> tracking;  ///< nothing: only what is seen counts
-  double mapped_m = 0.10;                        ///< a feature this near to one of the map is remembered
 };
 
 /// Fits features of a scan to those of the map: what is seen now, and what was seen a moment ago.
@@ -27,6 +26,7 @@ class FeatureMatcher final : public ScanMatcher {
 
   void observe(const Scan& scan, const Pose2& expected, const Eigen::Matrix3d& covariance) override;
   MatchResult match(const Pose2& guess) override;
+  std::string_view reservation(const MatchResult& taken) const override;
   void settle(const MatchResult& taken) override;
   void forget() override { tracker_.forget(); }
   std::string_view too_few_pairs() const override {
@@ -34,6 +34,8 @@ class FeatureMatcher final : public ScanMatcher {
   }
 
  private:
+  bool is_mapped(const PointFeature& seen, const Pose2& map_from_laser) const;
+
   FeatureMatcherConfig config_;
   FeatureMap map_;
   FeatureTracker tracker_;

@@ -30,8 +30,9 @@ Status Health::judge(double on_map_ratio) {
   if (is_weak(on_map_ratio)) {
     good_in_a_row_ = 0;
     lost_ = lost_ || ++weak_in_a_row_ >= config_.lost_after_scans;
-    // What was usual elsewhere must not keep a robot from being well here.
-    if (usual_ratio_ > 0.0 && on_map_ratio >= config_.weak_ratio)
+    // What was usual elsewhere must not keep a robot lost for ever; but a fit that is weak all of a sudden
+    // teaches nothing before that.
+    if (lost_ && usual_ratio_ > 0.0 && on_map_ratio >= config_.weak_ratio)
       usual_ratio_ += config_.forget * (on_map_ratio - usual_ratio_);
     return lost_ || on_map_ratio < config_.lost_ratio ? Status::lost : Status::degraded;
   }

@@ -80,6 +80,7 @@ LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
   if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid->resolution_m / std::sqrt(12.0);
   const bool is_chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
   if (!is_chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid->resolution_m);
+  if (config.hector.on_map_m == HectorConfig{}.on_map_m) config.hector.on_map_m = config.icp.on_map_m;
   return config;
 }
 
@@ -124,6 +125,9 @@ Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map&
   if (!map) return map.error();
   auto pyramid = std::visit([&](const auto& kind) { return build_pyramid(kind, config.pyramid); }, *map);
   if (!pyramid) return pyramid.error();
+  // Features of a map are off by what its walls are off.
+  if (is_of_keypoints)
+    pyramid.value().wall_sigma_m = std::max(pyramid.value().wall_sigma_m, config.icp.map_sigma_m);
   HectorConfig hector = config.hector;
   if (is_of_keypoints) hector.min_pairs = std::min(hector.min_pairs, kLeastPoints);
   ScanPoints points(recipe.points, recipe.detector, config.features.detectors, config.regions);

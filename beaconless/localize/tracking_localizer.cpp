@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace beaconless {
@@ -22,10 +23,18 @@ constexpr double kVague_m = 0.1;        // a prediction less certain than this i
 constexpr double kVague_rad = radians(5.0);  // … where the whole scan tells better
 constexpr std::size_t kChecks = 240;         // beams that check a pose: the share is then known to 3 %
 
-/// Two independent opinions on the same pose, each with its covariance.
+/// Two independent opinions on the same pose, each with its covariance, of which `a` may know nothing along
+/// some direction: information adds up direction by direction, as inverting a matrix of 1e6 m² beside 1e-6 m²
+/// would not.
 Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  const Eigen::Matrix3d ridge = 1e-12 * Eigen::Matrix3d::Identity();
-  return ((a + ridge).inverse() + (b + ridge).inverse()).inverse();
+  constexpr double kLeast = 1e-10;  // what rounding leaves of a variance beside kUnknownSigma²
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> opinion(a);
+  Eigen::Matrix3d information = (b + 1e-12 * Eigen::Matrix3d::Identity()).inverse();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d way = opinion.eigenvectors().col(k);
+    information += way * way.transpose() / std::max(opinion.eigenvalues()[k], kLeast);
+  }
+  return information.inverse();
 }
 
 /// The error that the robot's own motion during a sweep leaves in a fit of the sweep as if it were taken at
@@ -102,13 +111,16 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   if (is_worth_searching(match, prediction)) {
     const std::vector<StartPose> starts = starts_around(prediction);
     match = best_of(starts, match, prediction, [&](const Pose2& start) { return fit_from(start); });
-    if (!reason_against(match, prediction).empty()) whole_scan = fit_whole_scan(starts, prediction);
+    if (first_scan_ || !reason_against(match, prediction).empty())
+      whole_scan = fit_whole_scan(starts, prediction);
   } else if (!match.usable() && is_vague(prediction)) {
     const StartPose there{guess};
     whole_scan = fit_whole_scan({&there, 1}, prediction);
   }
   // 5. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
-  const std::string_view doubt = reason_against(match, prediction);
+  std::string_view doubt = reason_against(match, prediction);
+  if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
+    doubt = "the whole scan fits another place far better";
   last_ = doubt.empty() ? accept(match, prediction, *scan)
           : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
@@ -196,7 +208,8 @@ std::vector<StartPose> TrackingLocalizer::starts_around(const Prediction& predic
     window.window_deg = 180.0;
     window.step_deg *= 2.0;
   } else {
-    const double slack_m = 2.0 * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+    const double slack_m =
+        2.0 * std::sqrt(std::max(0.0, prediction.covariance.topLeftCorner<2, 2>().trace()));
     const double wider = std::clamp(slack_m / std::max(window.window_m, 1e-3), 1.0, kLostWindow);
     window.window_m *= wider;
     window.step_m *= std::sqrt(wider);
@@ -245,7 +258,8 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   if (was_lost && is_jump(match, prediction)) health_.forget_found();
   estimate.status = health_.judge(match.on_map_ratio);
   estimate.reason = reason_of(estimate.status, was_lost);
-  if (estimate.status != Status::ok) estimate.covariance += was_lost ? kLostCovariance : kWeakCovariance;
+  const bool is_lost = was_lost || estimate.status == Status::lost;
+  if (estimate.status != Status::ok) estimate.covariance += is_lost ? kLostCovariance : kWeakCovariance;
   if (match.rank < 3) {
     estimate.covariance = fused(estimate.covariance, prediction.covariance);
     if (estimate.status == Status::ok) {
@@ -258,7 +272,18 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
                 sweep_covariance(estimate.map_from_base, prediction.twist_per_s, scan.sweep_time_s()));
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
-  motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
+  if (const auto reservation = matcher_->reservation(match); !reservation.empty()) {
+    if (estimate.status == Status::ok) {
+      estimate.status = Status::degraded;
+      estimate.reason = reservation;
+    }
+    motion_.hold(scan.stamp(), estimate.map_from_base, estimate.covariance);
+  } else if (match.rank < 3) {
+    motion_.hold(scan.stamp(), estimate.map_from_base, estimate.covariance);
+  } else {
+    motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
+  }
+  if (health_.lost()) matcher_->forget();
   matcher_->settle(match);
   return estimate;
 }

@@ -14,7 +14,8 @@ constexpr double kGaussianMad = 1.4826;  // standard deviation of a Gaussian fro
 constexpr double kNear_m = 0.01;         // a closed-form step below both is near enough …
 constexpr double kNear_rad = 0.005;      // … for the linearised step to be believed
 constexpr double kOnWall_m = 1e-9;
-constexpr int kPatience = 4;  // iterations without a better fit
+constexpr double kCommonNoise = 0.1;  // share of a residual's variance that is taken from all of them
+constexpr int kPatience = 4;          // iterations without a better fit
 
 using Pair = IcpScratch::Pair;
 
@@ -86,7 +87,9 @@ Normal weigh(const std::vector<Pair>& pairs, const Loss& loss, double scale_m) {
     const Eigen::Vector3d jacobian(pair.normal.x(), pair.normal.y(),
                                    pair.normal.y() * pair.arm.x() - pair.normal.x() * pair.arm.y());
     normal.hessian += weight * jacobian * jacobian.transpose();
-    normal.noise += weight * weight * square * jacobian * jacobian.transpose();
+    // A direction that one or two points hold fits them exactly: their residuals alone would call it certain.
+    const double noise = (1.0 - kCommonNoise) * square + kCommonNoise * scale_m * scale_m;
+    normal.noise += weight * weight * noise * jacobian * jacobian.transpose();
     normal.gradient += weight * pair.distance_m * jacobian;
     normal.weight += weight;
     normal.curvature += loss.curvature(square * whiten);

@@ -81,4 +81,20 @@ void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen:
   stamped_ = true;
 }
 
+void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
+  if (stamped_) {
+    const double dt = elapsed_s(stamp);
+    speed_variance_ += square(config_.acceleration_mps2 * dt);
+    turn_variance_ += square(config_.turn_acceleration_radps2 * dt);
+    usual_step_s_ = dt;
+  } else {
+    speed_variance_ = square(kUnknownSpeed_mps);
+    turn_variance_ = square(kUnknownTurn_radps);
+  }
+  last_ = map_from_base;
+  covariance_ = covariance;
+  stamp_ = stamp;
+  stamped_ = true;
+}
+
 }  // namespace beaconless

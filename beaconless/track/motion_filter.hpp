@@ -45,6 +45,10 @@ class MotionFilter {
   /// Tells the filter where the robot was at `stamp`, and how sure that is.
   void correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
 
+  /// Tells it of a pose that rests on its own prediction, wholly or along some direction: the velocity is
+  /// believed as before and less, since nothing new was heard of it.
+  void hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
+
  private:
   MotionConfig config_;
   Pose2 last_;

@@ -2,6 +2,7 @@
 // What every method has to do, whatever it takes from a scan.
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "beaconless/io/scenario_io.hpp"
@@ -162,6 +163,7 @@ TEST(FeatureMethods, CoastWhenFewerThanTwoFeaturesAreInView) {
   EXPECT_TRUE(see(false).ok());
 }
 
+/// Corners that are only remembered keep the pose where it was, but nobody calls that ok.
 TEST(FeatureMethods, RememberedCornersBridgeAGlimpse) {
   Rng rng(15);
   const FloorPlan plan = test::rectangle(6, 5);
@@ -171,16 +173,55 @@ TEST(FeatureMethods, RememberedCornersBridgeAGlimpse) {
         make_localizer({.method = tracked ? "icp-corners-ft" : "icp-corners"}, plan).value();
     const Pose2 truth{3, 2.5, 0.2};
     localizer->start_at(truth);
-    int ok = 0;
     for (int i = 0; i < 40; ++i) {
+      const bool is_glimpse = i % 4 == 3;
       RawScan raw = test::sweep(walls, truth, 0.01, rng, {25'000'000 * i});
-      for (std::size_t k = 0; i % 4 == 3 && k < raw.ranges_m.size(); ++k)
+      for (std::size_t k = 0; is_glimpse && k < raw.ranges_m.size(); ++k)
         if (k < 480 || k > 600) raw.ranges_m[k] = std::numeric_limits<float>::infinity();
       const PoseEstimate estimate = localizer->update(Scan::make(raw).value());
-      ok += estimate.ok() ? 1 : 0;
+      EXPECT_EQ(estimate.ok(), !is_glimpse) << i;
+      const bool rests_on_memory = estimate.reason.find("remembered") != std::string_view::npos;
+      EXPECT_EQ(rests_on_memory, is_glimpse && tracked) << estimate.reason;
       EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.02);
     }
-    EXPECT_EQ(ok, tracked ? 40 : 30);
+  }
+}
+
+/// Where features do not suffice and the motion no longer tells, the whole scan does, and that is not ok.
+TEST(FeatureMethods, TheWholeScanStandsInForThem) {
+  Rng rng(16);
+  const FloorPlan plan = test::niche_room();
+  const RayCaster walls(plan.segments());
+  // A method that never has enough to hold on to.
+  LocalizerConfig config{.method = "icp-corners"};
+  const auto fields = fields_of(config);
+  ASSERT_TRUE(set_field(fields, "feature_icp.min_pairs", "1000").ok());
+  const auto localizer = make_localizer(config, plan).value();
+  const Pose2 truth{3, 2, 0.3};
+  localizer->start_at(truth * Pose2{0.15, -0.1, 0.1});
+  for (int i = 0; i < 10; ++i) {
+    const PoseEstimate estimate =
+        localizer->update(Scan::make(test::sweep(walls, truth, 0.01, rng, {25'000'000 * i})).value());
+    ASSERT_EQ(estimate.status, Status::degraded) << i;
+    EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.02) << i;
+  }
+}
+
+/// Whatever is in view, a covariance is one: no direction has a negative variance.
+TEST_P(EachMethod, CovariancesHaveNoNegativeDirection) {
+  Rng rng(17);
+  const sim::Scenario s = scenario("room-ellipse");
+  const RayCaster walls(s.plan.segments());
+  const auto localizer = on(s.plan);
+  const Pose2 truth{6, 4, 0.3};
+  localizer->start_at(truth);
+  for (int i = 0; i < 36; ++i) {
+    RawScan raw = test::sweep(walls, truth, 0.01, rng, {125'000'000 * i});
+    for (std::size_t k = 0; i % 12 >= 5 && k < raw.ranges_m.size(); ++k)
+      if (k < 480 || k > 600) raw.ranges_m[k] = std::numeric_limits<float>::infinity();
+    const PoseEstimate estimate = localizer->update(Scan::make(raw).value());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(estimate.covariance);
+    ASSERT_GE(solver.eigenvalues()[0], 0.0) << i << " " << estimate.reason;
   }
 }
 
