@@ -97,7 +97,7 @@ OccupancyGrid LogOddsGrid::grid() const {
   }
   OccupancyGrid grid;
   grid.resolution_m = resolution_m_;
-  if (cells_.empty()) return grid;
+  if (seen.width() <= 0) return grid;
   grid.map_from_grid = {seen.low.x * resolution_m_, seen.low.y * resolution_m_, 0.0};
   grid.width_cells = static_cast<int>(seen.width());
   grid.height_cells = static_cast<int>(seen.height());

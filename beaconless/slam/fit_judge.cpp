@@ -10,6 +10,11 @@ namespace {
 constexpr double kFarPenalty = 0.1;  // in score, of a fit as far as any robot gets
 constexpr double kFollow = 0.1;      // how fast what is usual follows the scans
 
+bool is_near(const Pose2& correction, const SlamReach& reach) {
+  return std::hypot(correction.x_m, correction.y_m) <= reach.near_m &&
+         degrees(std::abs(correction.theta_rad)) <= reach.near_deg;
+}
+
 }  // namespace
 
 void describe(Fields& fields, FitJudgeConfig& config) {
@@ -31,12 +36,16 @@ bool FitJudge::is_in_doubt(const SlamFit& fit) const {
          fit.overlap.on_ratio < config_.doubt_share * usual_on_ratio_;
 }
 
+bool FitJudge::is_surprising(const SlamFit& fit, const Pose2& correction, const SlamReach& reach) const {
+  return is_in_doubt(fit) && !is_near(correction, reach);
+}
+
 double FitJudge::worth(const SlamFit& fit, const Pose2& correction, const SlamReach& reach) const {
   const double move_m = std::hypot(correction.x_m, correction.y_m);
   const double turn_deg = degrees(std::abs(correction.theta_rad));
   const double far = std::max(move_m / reach.far_m, turn_deg / reach.far_deg);
-  const bool is_near = move_m <= reach.near_m && turn_deg <= reach.near_deg;
-  if (!fit.match.usable() || (far > 1.0 && is_in_doubt(fit)) || (!is_near && contradicts(fit)))
+  if (!fit.match.usable() || (far > 1.0 && is_in_doubt(fit)) ||
+      (!is_near(correction, reach) && contradicts(fit)))
     return kWorthless;
   return fit.overlap.score() - kFarPenalty * std::min(1.0, far * far);
 }

@@ -50,6 +50,9 @@ class FitJudge {
   /// True where more of the scan than usual lies where the map is free.
   bool contradicts(const SlamFit& fit) const;
 
+  /// True where a fit in doubt is not near the prediction either.
+  bool is_surprising(const SlamFit& fit, const Pose2& correction, const SlamReach& reach) const;
+
   /// What a fit is worth beside others of the same scan; kWorthless for one out of reach that is in doubt, or
   /// not near and contradicting the map. In: the way from the prediction to the fit.
   double worth(const SlamFit& fit, const Pose2& correction, const SlamReach& reach) const;

@@ -87,7 +87,8 @@ PoseEstimate HectorSlam::update(const Event& event) {
   // 4. Take it for the pose, or go on by the motion alone.
   const std::string_view doubt = judge_.reason_not_held(fit, worth(fit, prediction, reach));
   const bool is_held = doubt.empty();
-  last_ = is_held ? accept(fit, prediction, scan->stamp()) : coast(fit, prediction, scan->stamp(), doubt);
+  last_ =
+      is_held ? accept(fit, prediction, reach, scan->stamp()) : coast(fit, prediction, scan->stamp(), doubt);
   odom_of_last_scan_ = odom_from_base_;
   // 5. Draw what was seen once the robot has moved.
   if (is_held && !draw_if_moved(*scan)) {
@@ -153,9 +154,12 @@ SlamFit HectorSlam::fit_from(const Pose2& map_from_laser) {
   return fit;
 }
 
+Pose2 HectorSlam::correction(const SlamFit& fit, const Prediction& prediction) const {
+  return prediction.map_from_base.inverse() * (fit.match.map_from_laser * laser_from_base_);
+}
+
 double HectorSlam::worth(const SlamFit& fit, const Prediction& prediction, const SlamReach& reach) const {
-  const Pose2 map_from_base = fit.match.map_from_laser * laser_from_base_;
-  return judge_.worth(fit, prediction.map_from_base.inverse() * map_from_base, reach);
+  return judge_.worth(fit, correction(fit, prediction), reach);
 }
 
 bool HectorSlam::is_worth_searching(double worth, const SlamFit& fit) const {
@@ -184,7 +188,8 @@ SlamFit HectorSlam::search(const SlamFit& first, const Prediction& prediction, c
   return best;
 }
 
-PoseEstimate HectorSlam::accept(const SlamFit& fit, const Prediction& prediction, Stamp stamp) {
+PoseEstimate HectorSlam::accept(const SlamFit& fit, const Prediction& prediction, const SlamReach& reach,
+                                Stamp stamp) {
   PoseEstimate estimate;
   estimate.stamp = stamp;
   estimate.map_from_base = fit.match.map_from_laser * laser_from_base_;
@@ -198,10 +203,12 @@ PoseEstimate HectorSlam::accept(const SlamFit& fit, const Prediction& prediction
     estimate.reason = "the walls in view leave a direction open, which is held at the prediction";
   }
   estimate.covariance = symmetric(estimate.covariance);
-  if (judge_.contradicts(fit)) {
+  const bool is_surprising = judge_.is_surprising(fit, correction(fit, prediction), reach);
+  if (is_surprising || judge_.contradicts(fit)) {
     estimate.covariance += kWeakCovariance;
     estimate.status = Status::degraded;
-    estimate.reason = "part of the scan contradicts the map, more than is usual";
+    estimate.reason = is_surprising ? "the scan fits away from the predicted pose, and much of it is new"
+                                    : "part of the scan contradicts the map, more than is usual";
   }
   not_held_in_a_row_ = 0;
   held_at_ = stamp;

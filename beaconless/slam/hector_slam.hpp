@@ -51,10 +51,11 @@ class HectorSlam {
   Prediction predict(Stamp stamp) const;
   SlamReach reach_at(Stamp stamp) const;
   SlamFit fit_from(const Pose2& map_from_laser);
+  Pose2 correction(const SlamFit& fit, const Prediction& prediction) const;
   double worth(const SlamFit& fit, const Prediction& prediction, const SlamReach& reach) const;
   bool is_worth_searching(double worth, const SlamFit& fit) const;
   SlamFit search(const SlamFit& first, const Prediction& prediction, const SlamReach& reach);
-  PoseEstimate accept(const SlamFit& fit, const Prediction& prediction, Stamp stamp);
+  PoseEstimate accept(const SlamFit& fit, const Prediction& prediction, const SlamReach& reach, Stamp stamp);
   PoseEstimate coast(const SlamFit& fit, const Prediction& prediction, Stamp stamp, std::string_view reason);
   bool draw_if_moved(const Scan& scan);
 

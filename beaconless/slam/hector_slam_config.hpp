@@ -34,7 +34,9 @@ struct HectorSlamConfig {
   double update_angle_rad = 0.13;  ///< … or turned so much; Hector's
   SlamGuess guess = SlamGuess::constant_velocity;
   MotionConfig motion;
-  HectorConfig match;
+  /// A direction is held at the prediction only where next to nothing holds it: there is no map to come back
+  /// to from where a wrong prediction leads.
+  HectorConfig match{.least_share = 0.005};
   SlamSearch search_when = SlamSearch::in_doubt;
   PyramidSearchConfig search;  ///< its window is the least; a robot may be further after a while
   double speed_mps = 1.5;      ///< how much faster or slower than predicted a robot may be

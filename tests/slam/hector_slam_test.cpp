@@ -229,7 +229,7 @@ TEST(HectorSlam, OddEventsGetAnHonestWord) {
         scan_of(std::vector<float>(200, 0.0F), 0.4), scan_of(std::vector<float>(200, 0.06F), 0.5),
         scan_of(std::vector<float>(200, 29.9F), -1e9), scan_of(std::vector<float>(200, 1.0F), 9e9)}) {
     const PoseEstimate estimate = slam.update(scan);
-    EXPECT_EQ(estimate.status, Status::degraded);
+    EXPECT_EQ(estimate.status, Status::degraded) << scan.stamp();
     EXPECT_NE(estimate.reason, "");
     EXPECT_TRUE(is_finite(estimate));
     EXPECT_EQ(estimate.stamp, scan.stamp());
