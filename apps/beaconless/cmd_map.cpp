@@ -106,7 +106,7 @@ int build_by_slam(const Console& console, const CLI::App& command, const MapWord
 
 int build_either_way(const Console& console, const CLI::App& command, const MapWords& words) {
   if (!words.slam.method.empty()) return build_by_slam(console, command, words);
-  for (const char* option : {"--out-poses", "--start", "--config", "--set"})
+  for (const char* option : {"--out-poses", "--plot", "--start", "--config", "--set"})
     if (command.count(option) > 0)
       return console.fail({option, "it goes with --slam only", "add --slam hector, or leave it out"},
                           exit_usage);
@@ -129,6 +129,7 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
                    "Without any poses: find them on the way, by this method (hector)")
       ->check(CLI::IsMember({"hector"}));
   command->add_option("--out-poses", words->slam.out_poses, "The poses found by --slam, a TUM file");
+  command->add_option("--plot", words->slam.plot, "The map with the path found by --slam, as SVG");
   command->add_option("--start", words->slam.start,
                       "Where --slam begins in the map, x,y,deg (default 0,0,0)");
   command->add_option("--config", words->slam.config, "Parameters of --slam from a YAML file");

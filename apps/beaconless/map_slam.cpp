@@ -12,6 +12,8 @@
 #include "beaconless/io/config_yaml.hpp"
 #include "beaconless/io/grid_io.hpp"
 #include "beaconless/io/tum.hpp"
+#include "beaconless/io/whole_file.hpp"
+#include "beaconless/report/map_view.hpp"
 #include "beaconless/slam/hector_slam.hpp"
 
 #include "slam_parameters.hpp"
@@ -44,18 +46,19 @@ Result<Done> check_paths(const MapSlamWords& words) {
     std::error_code none;
     return !a.empty() && !b.empty() && (a == b || std::filesystem::equivalent(a, b, none));
   };
-  for (const std::string& out : {words.out, words.out_poses})
+  for (const std::string& out : {words.out, words.out_poses, words.plot})
     for (const std::string& in : {words.recording, words.config})
       if (is_same(out, in))
         return Error{out, "this file is read, and would be written over", "give another name"};
-  if (is_same(words.out, words.out_poses))
-    return Error{words.out, "map and poses would go into the same file", "give two names"};
+  if (is_same(words.out, words.out_poses) || is_same(words.out, words.plot) ||
+      is_same(words.out_poses, words.plot))
+    return Error{words.out, "two results would go into the same file", "give each a name of its own"};
   return Done{};
 }
 
 /// Finds out before a long run whether its files will have a folder.
 Result<Done> check_folders(const MapSlamWords& words) {
-  for (const std::string& out : {words.out, words.out_poses}) {
+  for (const std::string& out : {words.out, words.out_poses, words.plot}) {
     const auto folder = std::filesystem::path(out).parent_path();
     std::error_code none;
     if (!folder.empty() && !std::filesystem::is_directory(folder, none))
@@ -119,6 +122,11 @@ Result<Done> write_poses(const std::string& path, const SlamRun& run) {
   return poses.finish();
 }
 
+Result<Done> write_plot(const std::string& path, const OccupancyGrid& grid, const SlamRun& run) {
+  if (path.empty()) return Done{};
+  return io::write_whole_file(path, report::svg_file(report::draw_map(Map(grid), run.estimates)));
+}
+
 void tell(const Console& console, const MapSlamWords& words, const OccupancyGrid& grid,
           const HectorSlam& slam, SlamRun& run) {
   std::string counts;
@@ -171,6 +179,7 @@ int map_by_slam(const Console& console, const MapSlamWords& words) {
          run.estimates.empty() ? "check --topic and --scans" : std::string(run.estimates.back().reason)});
   if (auto written = io::write_grid(words.out, grid); !written) return console.fail(written.error());
   if (auto written = write_poses(words.out_poses, run); !written) return console.fail(written.error());
+  if (auto written = write_plot(words.plot, grid, run); !written) return console.fail(written.error());
   // 4. Tell.
   const bool is_lost = run.estimates.back().status == Status::lost;
   const std::string_view reason = run.estimates.back().reason;

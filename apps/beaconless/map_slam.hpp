@@ -19,6 +19,7 @@ struct MapSlamWords {
   std::string start;  ///< x,y,deg; "": the origin
   std::string out;
   std::string out_poses;
+  std::string plot;                    ///< SVG
   std::optional<double> resolution_m;  ///< as told, if so; likewise the next two
   std::optional<double> p_occupied;
   std::optional<double> p_free;

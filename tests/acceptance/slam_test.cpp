@@ -119,16 +119,19 @@ TEST_F(Slam, ATricycleInAHall) {
   }
 }
 
-// hector_slam's own figures on these: 8.0 mm here, 16.3 mm in the small room.
-TEST_F(Slam, SimulatedRoomsToMillimetres) {
+// From the true start; what hector_slam reaches on the same scans.
+TEST_F(Slam, SimulatedRoomsBetterThanHectorSlam) {
   SKIP_WITHOUT("sim_rooms/b1_ellipse.carmen.log.gz");
-  for (const auto& [room, rmse_m] : {std::pair{"a1_static", 0.010}, {"b1_ellipse", 0.008}}) {
+  for (const auto& [room, hector_slam_m] : {std::pair{"a1_static", 0.0163}, {"b1_ellipse", 0.0080}}) {
     const std::string drive = std::string("sim_rooms/") + room;
-    const auto told = build({recorded(drive + ".carmen.log.gz")});
+    const Trajectory truth = io::read_tum(recorded(drive + ".truth.tum")).value();
+    const Pose2 start = truth.front().pose;
+    const auto told = build({recorded(drive + ".carmen.log.gz"),
+                             "--start=" + std::to_string(start.x_m) + "," + std::to_string(start.y_m) + "," +
+                                 std::to_string(degrees(start.theta_rad))});
     EXPECT_EQ(told["status_counts"], (nlohmann::json{{"ok", told["scans"]}}));
-    const auto evaluation =
-        eval::evaluate(io::read_tum(poses()).value(), io::read_tum(recorded(drive + ".truth.tum")).value());
-    EXPECT_LT(evaluation.aligned.position_m.rmse, rmse_m) << room;
+    const auto evaluation = eval::evaluate(io::read_tum(poses()).value(), truth);
+    EXPECT_LT(evaluation.raw.position_m.rmse, hector_slam_m) << room;
   }
 }
 

@@ -68,6 +68,12 @@ TEST_F(MapSlam, PeopleReadWhatBecameOfTheScans) {
   EXPECT_THAT(ran.out, HasSubstr("hall.tum"));
 }
 
+TEST_F(MapSlam, PlotsTheMapWithThePath) {
+  ASSERT_EQ(run(slam({"--plot", folder.path("hall.svg")})).exit_code, 0);
+  EXPECT_THAT(folder.read("hall.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(folder.read("hall.svg"), HasSubstr("image/png"));
+}
+
 TEST_F(MapSlam, StartsWhereItIsTold) {
   ASSERT_EQ(run(slam({"--out-poses", poses(), "--start", "3,-4,90"})).exit_code, 0);
   const Pose2 first = io::read_tum(poses()).value().front().pose;
@@ -114,7 +120,9 @@ TEST_F(MapSlam, WordsThatMakeNoSense) {
   refused(slam({"--resolution", "-1"}), 2, "resolution_m");
   refused(slam({"--start", "1,2"}), 2, "--start");
   refused(slam({"--out-poses", map()}), 2, "same file");
+  refused(slam({"--plot", map()}), 2, "same file");
   refused(slam({"--out-poses", recording()}), 2, "written over");
+  refused({"map", "build", recording(), "--out", map(), "--plot", folder.path("a.svg")}, 2, "--slam");
   refused(slam({"--out-poses", folder.path("no/such.tum")}), 3, "folder");
   refused({"map", "build", folder.path("missing.log"), "--slam", "hector", "--out", map()}, 3, "missing.log");
 }
