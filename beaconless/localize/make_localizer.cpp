@@ -23,7 +23,7 @@ enum class Fitting { icp, feature_icp, hector };
 
 /// A method: what is taken from a scan, and how that is fitted to the map.
 struct Recipe {
-  Fitting fitting;
+  Fitting fitting = Fitting::icp;
   PointsFrom points = PointsFrom::whole_scan;  // of icp and hector
   Detector detector = Detector::falko;         // of all but whole scans
   bool is_tracked = false;                     // of feature_icp
@@ -35,7 +35,7 @@ struct NamedRecipe {
 };
 
 const std::array<NamedRecipe, 13>& recipes() {
-  static const std::array<NamedRecipe, 13> all{{
+  static const std::array<NamedRecipe, 13> kAll{{
       {{"icp-full", "every point of the scan against the walls of the map, by re-weighted ICP"},
        {Fitting::icp}},
       {{"icp-rdp", "vertices that Douglas and Peucker keep, as corners, by re-weighted ICP"},
@@ -60,7 +60,7 @@ const std::array<NamedRecipe, 13>& recipes() {
       {{"hector-regions", "the points around keypoints of FALKO on the pyramid"},
        {Fitting::hector, PointsFrom::regions}},
   }};
-  return all;
+  return kAll;
 }
 
 Error unknown_method(const std::string& name) {
@@ -93,8 +93,7 @@ Made make_icp(const Recipe& recipe, const LocalizerConfig& config,
                                                                   const Pose2& guess) mutable {
     return match_icp(seen, *surfaces, guess, icp, scratch);
   };
-  return Made(
-      std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit))));
+  return {std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit)))};
 }
 
 Made make_feature_icp(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
@@ -103,7 +102,7 @@ Made make_feature_icp(const Recipe& recipe, const LocalizerConfig& config, const
   FeatureMatcherConfig matching{
       .detector = recipe.detector, .detecting = config.features, .icp = config.feature_icp};
   if (recipe.is_tracked) matching.tracking = config.tracking;
-  return Made(std::unique_ptr<ScanMatcher>(std::make_unique<FeatureMatcher>(matching, *std::move(features))));
+  return {std::unique_ptr<ScanMatcher>(std::make_unique<FeatureMatcher>(matching, *std::move(features)))};
 }
 
 /// The features of a map, each drawn as a cross: on walls a keypoint could slide along.
@@ -135,8 +134,7 @@ Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map&
                  std::span<const Eigen::Vector2d> seen, const Pose2& guess) mutable {
     return match_hector(seen, levels, guess, hector, scratch);
   };
-  return Made(
-      std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit))));
+  return {std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit)))};
 }
 
 Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
@@ -177,18 +175,19 @@ void describe(Fields& fields, LocalizerConfig& config) {
 }
 
 std::span<const Method> methods() {
-  static const std::vector<Method> all = [] {
+  static const std::vector<Method> kAll = [] {
     std::vector<Method> list;
     list.reserve(recipes().size());
     for (const NamedRecipe& of : recipes()) list.push_back(of.method);
     return list;
   }();
-  return all;
+  return kAll;
 }
 
 Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config, const Map& map) {
-  const auto named = std::find_if(recipes().begin(), recipes().end(),
-                                  [&](const NamedRecipe& of) { return of.method.name == config.method; });
+  const auto* const named = std::find_if(recipes().begin(), recipes().end(), [&](const NamedRecipe& of) {
+    return of.method.name == config.method;
+  });
   if (named == recipes().end()) return unknown_method(config.method);
   if (auto checked = check_config(config); !checked) return checked.error();
   const LocalizerConfig settled = for_map(config, map);
