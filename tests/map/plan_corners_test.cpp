@@ -90,7 +90,10 @@ TEST(PlanCorners, StraightWallsAndFreeEndsHaveNone) {
 
 TEST(PlanCorners, ACollinearVertexDoesNotShortenAnArm) {
   expect_corners({{{{0, 3}, {0, 0}, {1, 0}, {2, 0}}}}, {{0, 0, 45, 90, 2}});
-  // Nor does a wall that joins from the other side: it does from its own.
+  // Nor does a wall that joins from the other side …
+  expect_corners({{{{0, 0}, {7, 0}}, {{2, 0}, {2, 6}}, {{3, 0}, {3, -6}}}},
+                 {{2, 0, 45, 90, 5}, {2, 0, 135, 90, 2}, {3, 0, -45, 90, 4}, {3, 0, -135, 90, 3}});
+  // … and of a corner that is seen from both sides, the longer arm counts.
   const auto corners = find_plan_corners({{{{0, 3}, {0, 0}, {2, 0}}, {{1, 0}, {1, -1}}}});
   ASSERT_EQ(corners.size(), 3U);
   EXPECT_DOUBLE_EQ(corners[0].arm_m, 2.0);

@@ -168,5 +168,26 @@ TEST(GridOutlines, LieOnTheWallsThatWereDrawn) {
     }
 }
 
+TEST(GridOutlines, HaveCornersWhereTheyWereDrawn) {
+  // Where walls run oblique to the cells, lines through many of them cross within a part of one from the
+  // corner.
+  const FloorPlan room = test::niche_room();
+  for (const double heading_deg : {7.0, 23.0}) {
+    const FloorPlan outlines =
+        outlines_of(rasterize(room, {.resolution_m = 0.025, .heading_rad = radians(heading_deg)}).value());
+    std::vector<double> off_cells;
+    for (const FloorPlan::Polyline& wall : room.walls)
+      for (const Eigen::Vector2d& corner : wall) {
+        double least = 1e9;
+        for (const FloorPlan::Polyline& outline : outlines.walls)
+          for (const Eigen::Vector2d& point : outline) least = std::min(least, (point - corner).norm());
+        off_cells.push_back(least / 0.025);
+      }
+    std::sort(off_cells.begin(), off_cells.end());
+    EXPECT_LT(off_cells[off_cells.size() / 2], 0.3) << heading_deg;
+    EXPECT_LT(off_cells.back(), 0.4) << heading_deg;
+  }
+}
+
 }  // namespace
 }  // namespace beaconless
