@@ -213,7 +213,10 @@ PoseEstimate HectorSlam::accept(const SlamFit& fit, const Prediction& prediction
   not_held_in_a_row_ = 0;
   held_at_ = stamp;
   judge_.learn(fit);
-  motion_.correct(stamp, estimate.map_from_base, estimate.covariance);
+  if (fit.match.rank < 3)
+    motion_.hold(stamp, estimate.map_from_base, estimate.covariance);
+  else
+    motion_.correct(stamp, estimate.map_from_base, estimate.covariance);
   return estimate;
 }
 
