@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "beaconless/match/best_apart.hpp"
+
 namespace beaconless {
 namespace {
 
 constexpr double kHopeless = 0.2;  // a start whose cost is so much above the best is not worth following
-
-std::vector<Eigen::Vector2d> thinned(std::span<const Eigen::Vector2d> points, int count) {
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / static_cast<std::size_t>(count));
-  std::vector<Eigen::Vector2d> kept;
-  for (std::size_t i = stride / 2; i < points.size(); i += stride) kept.push_back(points[i]);
-  return kept;
-}
 
 /// Mean truncated squared distance to the map, 0 … 1; anything above `give_up` where it cannot be below that.
 template <SurfaceIndex Index>
@@ -31,28 +26,12 @@ double misfit(std::span<const Eigen::Vector2d> arms, const Index& map, const Eig
   return sum / (worst * static_cast<double>(arms.size()));
 }
 
-/// Keeps the best poses, leaving out neighbours of better ones.
-std::vector<StartPose> best_apart(std::vector<StartPose> poses, const LocalSearchConfig& config) {
-  std::sort(poses.begin(), poses.end(),
-            [](const StartPose& a, const StartPose& b) { return a.cost < b.cost; });
-  std::vector<StartPose> kept;
-  for (const StartPose& pose : poses) {
-    const bool neighbour = std::any_of(kept.begin(), kept.end(), [&](const StartPose& better) {
-      return distance_m(pose.map_from_laser, better.map_from_laser) < 1.6 * config.step_m &&
-             heading_difference_rad(pose.map_from_laser, better.map_from_laser) <
-                 radians(2.1 * config.step_deg);
-    });
-    if (!neighbour) kept.push_back(pose);
-    if (kept.size() == static_cast<std::size_t>(config.keep)) break;
-  }
-  return kept;
-}
-
 template <SurfaceIndex Index>
 std::vector<StartPose> search(std::span<const Eigen::Vector2d> points, const Index& map, const Pose2& guess,
                               const LocalSearchConfig& config) {
   if (points.empty()) return {};
-  const std::vector<Eigen::Vector2d> few = thinned(points, config.points);
+  std::vector<Eigen::Vector2d> few;
+  thin(points, config.points, few);
   std::vector<Eigen::Vector2d> arms(few.size());
   const int turns = static_cast<int>(std::ceil(config.window_deg / config.step_deg));
   const int moves = static_cast<int>(std::ceil(config.window_m / config.step_m));
@@ -76,7 +55,11 @@ std::vector<StartPose> search(std::span<const Eigen::Vector2d> points, const Ind
       }
     }
   }
-  return best_apart(std::move(poses), config);
+  std::vector<StartPose> best;
+  keep_best_apart(
+      poses, config.step_m, config.step_deg, config.keep,
+      [](const StartPose& a, const StartPose& b) { return a.cost < b.cost; }, best);
+  return best;
 }
 
 }  // namespace

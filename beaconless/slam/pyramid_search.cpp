@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "beaconless/map/grid_traversal.hpp"
+#include "beaconless/match/best_apart.hpp"
 #include "beaconless/slam/level_reader.hpp"
 
 namespace beaconless {
@@ -23,33 +24,11 @@ constexpr std::array<int, 256> kScore = [] {
   return score;
 }();
 
-void thin(std::span<const Eigen::Vector2d> points, int count, std::vector<Eigen::Vector2d>& few) {
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / static_cast<std::size_t>(count));
-  few.clear();
-  for (std::size_t i = stride / 2; i < points.size(); i += stride) few.push_back(points[i]);
-}
-
 /// The mean over the cells: M on obstacles, kFree where nothing stands, 0 where nothing is known.
 double score_of(const std::vector<Cell>& cells, const LevelReader& level, int dx, int dy) {
   int sum = 0;
   for (const Cell& cell : cells) sum += kScore[level.byte({cell.x + dx, cell.y + dy})];
   return sum / (254.0 * static_cast<double>(cells.size()));
-}
-
-/// Keeps the best poses, leaving out neighbours of better ones.
-void keep_best_apart(std::vector<FoundPose>& tried, double step_m, const PyramidSearchConfig& config,
-                     std::vector<FoundPose>& found) {
-  std::sort(tried.begin(), tried.end(),
-            [](const FoundPose& a, const FoundPose& b) { return a.score > b.score; });
-  for (const FoundPose& pose : tried) {
-    const bool is_neighbour = std::any_of(found.begin(), found.end(), [&](const FoundPose& better) {
-      return distance_m(pose.map_from_laser, better.map_from_laser) < 1.6 * step_m &&
-             heading_difference_rad(pose.map_from_laser, better.map_from_laser) <
-                 radians(2.1 * config.step_deg);
-    });
-    if (!is_neighbour) found.push_back(pose);
-    if (found.size() == static_cast<std::size_t>(config.keep)) break;
-  }
 }
 
 }  // namespace
@@ -97,7 +76,9 @@ void search_pyramid(std::span<const Eigen::Vector2d> points, const OccupancyLeve
       }
     }
   }
-  keep_best_apart(scratch.tried, step_m, config, found);
+  keep_best_apart(
+      scratch.tried, step_m, config.step_deg, config.keep,
+      [](const FoundPose& a, const FoundPose& b) { return a.score > b.score; }, found);
 }
 
 }  // namespace beaconless
