@@ -56,6 +56,11 @@ struct Pose2 {
   }
 };
 
+/// The pose after a step (m, m, rad) along the map's axes, as least-squares solvers make them.
+inline Pose2 stepped(const Pose2& pose, const Eigen::Vector3d& step) {
+  return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.theta_rad + step.z())};
+}
+
 /// Metres between the two origins.
 double distance_m(const Pose2& a, const Pose2& b);
 

@@ -164,7 +164,7 @@ MatchResult match_feature_icp(std::span<const PointFeature> seen, const FeatureM
     if (!is_near)
       if (const auto turn = normal.alignment.solve())
         step = known.determined({turn->x_m, turn->y_m, turn->theta_rad});
-    pose = {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.theta_rad + step.z())};
+    pose = stepped(pose, step);
     result.map_from_laser = pose;
     result.status = MatchStatus::max_iterations;
     result.iterations = iteration;

@@ -22,10 +22,6 @@ constexpr std::size_t kPiecePoints = 150;  // enough of a scan to see what it ho
 constexpr int kLastSteps = 2;              // after weak directions were put back
 constexpr double kNothing = 1e-12;
 
-Pose2 moved(const Pose2& pose, const Eigen::Vector3d& step) {
-  return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.theta_rad + step.z())};
-}
-
 Eigen::Vector3d way(const Pose2& from, const Pose2& to) {
   return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
 }
@@ -191,7 +187,7 @@ MatchResult match_hector(std::span<const Eigen::Vector2d> points, const Occupanc
       none.pair_count = result.pair_count = sums.near_count;
       if (sums.near_count < config.min_pairs) return none;
       const Eigen::Vector3d step = match.step(sums);
-      pose = moved(pose, step);
+      pose = stepped(pose, step);
       const bool is_short =
           step.head<2>().norm() < config.converged_m && std::abs(step.z()) < config.converged_rad;
       result.status = is_short ? MatchStatus::converged : MatchStatus::max_iterations;
@@ -202,10 +198,10 @@ MatchResult match_hector(std::span<const Eigen::Vector2d> points, const Occupanc
       const Observability seen = held_by_walls(match, sums, pose);
       if (seen.weak_count > 0) {
         const Pose2 guessed = map_from_grid.inverse() * guess;
-        pose = moved(guessed, seen.determined(way(guessed, pose)));
+        pose = stepped(guessed, seen.determined(way(guessed, pose)));
         for (int k = 0; k < kLastSteps; ++k) {
           sums = match.sums(pose);
-          pose = moved(pose, match.step(sums, seen));
+          pose = stepped(pose, match.step(sums, seen));
         }
       }
       tell_certainty(match, seen, pose, map.wall_sigma_m, result);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
+#include "beaconless/geometry/pose_covariance.hpp"
 
 namespace beaconless {
 namespace {
@@ -25,17 +25,6 @@ const OccupancyLevel& level_to_search(const OccupancyPyramid& pyramid) {
 /// What a pose that is not held by the map may be off by.
 const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal();
 const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
-
-/// Two independent opinions on the same pose, each with its covariance, one of which may know next to
-/// nothing of a direction. Joseph's form: no rounding makes a variance negative.
-Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  const Eigen::Matrix3d ridge = 1e-12 * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d gain = a * (a + b + ridge).inverse();
-  const Eigen::Matrix3d left = Eigen::Matrix3d::Identity() - gain;
-  return left * a * left.transpose() + gain * b * gain.transpose();
-}
-
-Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
 
 }  // namespace
 
@@ -198,7 +187,7 @@ PoseEstimate HectorSlam::accept(const SlamFit& fit, const Prediction& prediction
   estimate.status = Status::ok;
   estimate.reason = "";
   if (fit.match.rank < 3) {
-    estimate.covariance = fused(prediction.covariance, estimate.covariance);
+    estimate.covariance = fused_covariance(estimate.covariance, prediction.covariance);
     estimate.status = Status::degraded;
     estimate.reason = "the walls in view leave a direction open, which is held at the prediction";
   }

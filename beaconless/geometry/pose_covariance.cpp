@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/geometry/pose_covariance.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace beaconless {
+
+Eigen::Matrix3d fused_covariance(const Eigen::Matrix3d& with_open_directions, const Eigen::Matrix3d& other) {
+  constexpr double kLeast = 1e-10;  // what rounding leaves of a variance beside 1e6
+  constexpr double kRidge = 1e-12;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> opinion(with_open_directions);
+  Eigen::Matrix3d information = (other + kRidge * Eigen::Matrix3d::Identity()).inverse();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d way = opinion.eigenvectors().col(k);
+    information += way * way.transpose() / std::max(opinion.eigenvalues()[k], kLeast);
+  }
+  return symmetric(symmetric(information).inverse());
+}
+
+}  // namespace beaconless
