@@ -15,6 +15,7 @@ constexpr double kNear_m = 0.01;         // a closed-form step below both is nea
 constexpr double kNear_rad = 0.005;      // … for the linearised step to be believed
 constexpr double kOnWall_m = 1e-9;
 constexpr double kCommonNoise = 0.1;  // share of a residual's variance that is taken from all of them
+constexpr double kLeastNoise = 0.25;  // share of the squared scale that is taken even where all points fit
 constexpr int kPatience = 4;          // iterations without a better fit
 
 using Pair = IcpScratch::Pair;
@@ -71,6 +72,9 @@ double robust_scale(const std::vector<Pair>& pairs, double floor_m, std::vector<
 struct Normal {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();   // Σ w J Jᵀ
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();     // Σ w² r² J Jᵀ
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();    // Σ w² J Jᵀ
+  double square_weight = 0.0;                          // Σ w²
+  double square = 0.0;                                 // Σ w² r²
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  // Σ w J r
   double weight = 0.0;                                 // Σ w
   double curvature = 0.0;                              // Σ rho''
@@ -86,20 +90,18 @@ Normal weigh(const std::vector<Pair>& pairs, const Loss& loss, double scale_m) {
     const double weight = loss.weight(square * whiten);
     const Eigen::Vector3d jacobian(pair.normal.x(), pair.normal.y(),
                                    pair.normal.y() * pair.arm.x() - pair.normal.x() * pair.arm.y());
-    normal.hessian += weight * jacobian * jacobian.transpose();
-    // A direction that one or two points hold fits them exactly: their residuals alone would call it certain.
-    const double noise = (1.0 - kCommonNoise) * square + kCommonNoise * scale_m * scale_m;
-    normal.noise += weight * weight * noise * jacobian * jacobian.transpose();
+    const Eigen::Matrix3d outer = jacobian * jacobian.transpose();
+    normal.hessian += weight * outer;
+    normal.noise += weight * weight * square * outer;
+    normal.spread += weight * weight * outer;
+    normal.square_weight += weight * weight;
+    normal.square += weight * weight * square;
     normal.gradient += weight * pair.distance_m * jacobian;
     normal.weight += weight;
     normal.curvature += loss.curvature(square * whiten);
     normal.alignment.add(pair.arm, pair.arm - pair.residual, weight);
   }
   return normal;
-}
-
-Pose2 moved(const Pose2& pose, const Eigen::Vector3d& step) {
-  return {pose.x_m + step.x(), pose.y_m + step.y(), wrap_angle(pose.theta_rad + step.z())};
 }
 
 /// The closed-form alignment as a step of the laser.
@@ -111,10 +113,15 @@ Eigen::Vector3d alignment_step(const RigidFit& alignment) {
 /// The covariance of a robust estimate from the residuals it met: H⁻¹ (Σ w² r² J Jᵀ) H⁻¹, where H has the
 /// curvature of the loss in the place of its weight. Source: Huber, "Robust Statistics", 1981, 6.3; White, "A
 /// heteroskedasticity-consistent covariance matrix", 1980.
-Eigen::Matrix3d sandwich(const Normal& normal, const Observability& seen, double arm_m, double map_sigma_m) {
+Eigen::Matrix3d sandwich(const Normal& normal, const Observability& seen, double arm_m, double scale_m,
+                         double map_sigma_m) {
   const double bread = std::clamp(normal.curvature / normal.weight, 0.2, 1.0);
   const Eigen::Matrix3d inverse = seen.inverse() / bread;
-  Eigen::Matrix3d covariance = inverse * normal.noise * inverse;
+  // A direction that one or two points hold fits them exactly: their residuals alone would call it certain.
+  const double usual =
+      std::max(normal.square / std::max(normal.square_weight, 1e-12), kLeastNoise * scale_m * scale_m);
+  const Eigen::Matrix3d noise = (1.0 - kCommonNoise) * normal.noise + kCommonNoise * usual * normal.spread;
+  Eigen::Matrix3d covariance = inverse * noise * inverse;
   covariance += seen.unknown();
   // The map's error does not average out over the beams of a wall.
   covariance.diagonal() += map_sigma_m * map_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
@@ -156,7 +163,7 @@ MatchResult match(std::span<const Eigen::Vector2d> points, const Index& map, con
     if (best.status == MatchStatus::not_run || pairing.misfit < best.misfit) {
       worse_in_a_row = 0;
       best.map_from_laser = pose;
-      best.covariance = sandwich(normal, seen, pairing.arm_m, config.map_sigma_m);
+      best.covariance = sandwich(normal, seen, pairing.arm_m, scale_m, config.map_sigma_m);
       best.status = MatchStatus::max_iterations;
       best.rank = 3 - seen.weak_count;
       best.weak_direction = seen.directions.col(0).normalized();
@@ -175,7 +182,7 @@ MatchResult match(std::span<const Eigen::Vector2d> points, const Index& map, con
     const bool near = step.head<2>().norm() < kNear_m && std::abs(step.z()) < kNear_rad;
     if (near && config.solver == IcpSolver::mixed) step = -seen.inverse() * normal.gradient;
     if (near) gate_m = std::min(config.max_pair_distance_m, config.gate_sigma * scale_m);
-    pose = moved(pose, step);
+    pose = stepped(pose, step);
     if (step.head<2>().norm() < config.converged_m && std::abs(step.z()) < config.converged_rad) {
       best.map_from_laser = pose;
       best.status = MatchStatus::converged;
