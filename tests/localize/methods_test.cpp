@@ -115,7 +115,7 @@ TEST_P(EachMethod, AStartInTheWrongPlaceIsNotBelieved) {
   localizer->start_at({100, 100, 0});
   for (int i = 0; i < 12; ++i) {
     const PoseEstimate estimate =
-        localizer->update(Scan::make(test::sweep(walls, {6, 4, 0.3}, 0.01, rng, {25'000'000 * i})).value());
+        localizer->update(Scan::make(test::sweep(walls, {6, 4, 0.3}, 0.01, rng, {25'000'000L * i})).value());
     ASSERT_FALSE(estimate.ok());
     ASSERT_GT(estimate.covariance(0, 0), 0.2 * 0.2);
   }
@@ -175,7 +175,7 @@ TEST(FeatureMethods, RememberedCornersBridgeAGlimpse) {
     localizer->start_at(truth);
     for (int i = 0; i < 40; ++i) {
       const bool is_glimpse = i % 4 == 3;
-      RawScan raw = test::sweep(walls, truth, 0.01, rng, {25'000'000 * i});
+      RawScan raw = test::sweep(walls, truth, 0.01, rng, {25'000'000L * i});
       for (std::size_t k = 0; is_glimpse && k < raw.ranges_m.size(); ++k)
         if (k < 480 || k > 600) raw.ranges_m[k] = std::numeric_limits<float>::infinity();
       const PoseEstimate estimate = localizer->update(Scan::make(raw).value());
@@ -201,7 +201,7 @@ TEST(FeatureMethods, TheWholeScanStandsInForThem) {
   localizer->start_at(truth * Pose2{0.15, -0.1, 0.1});
   for (int i = 0; i < 10; ++i) {
     const PoseEstimate estimate =
-        localizer->update(Scan::make(test::sweep(walls, truth, 0.01, rng, {25'000'000 * i})).value());
+        localizer->update(Scan::make(test::sweep(walls, truth, 0.01, rng, {25'000'000L * i})).value());
     ASSERT_EQ(estimate.status, Status::degraded) << i;
     EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.02) << i;
   }
@@ -216,7 +216,7 @@ TEST_P(EachMethod, CovariancesHaveNoNegativeDirection) {
   const Pose2 truth{6, 4, 0.3};
   localizer->start_at(truth);
   for (int i = 0; i < 36; ++i) {
-    RawScan raw = test::sweep(walls, truth, 0.01, rng, {125'000'000 * i});
+    RawScan raw = test::sweep(walls, truth, 0.01, rng, {125'000'000L * i});
     for (std::size_t k = 0; i % 12 >= 5 && k < raw.ranges_m.size(); ++k)
       if (k < 480 || k > 600) raw.ranges_m[k] = std::numeric_limits<float>::infinity();
     const PoseEstimate estimate = localizer->update(Scan::make(raw).value());

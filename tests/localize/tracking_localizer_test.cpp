@@ -132,7 +132,7 @@ TEST(TrackingLocalizer, InACorridorIsDegradedAndLessSureWithEveryScan) {
   double before = 0.0;
   for (int i = 0; i < 10; ++i) {
     const PoseEstimate estimate =
-        localizer->update(Scan::make(test::sweep(walls, {0, 1, 0}, 0.01, rng, {25'000'000 * i})).value());
+        localizer->update(Scan::make(test::sweep(walls, {0, 1, 0}, 0.01, rng, {25'000'000L * i})).value());
     ASSERT_EQ(estimate.status, Status::degraded);
     ASSERT_GE(estimate.covariance(0, 0), before);
     before = estimate.covariance(0, 0);
@@ -175,7 +175,7 @@ TEST(TrackingLocalizer, AStartInTheWrongPlaceIsNotBelieved) {
   localizer->start_at({100, 100, 0});
   for (int i = 0; i < 12; ++i) {
     const PoseEstimate estimate =
-        localizer->update(Scan::make(test::sweep(walls, {3, 2, 0.3}, 0.01, rng, {25'000'000 * i})).value());
+        localizer->update(Scan::make(test::sweep(walls, {3, 2, 0.3}, 0.01, rng, {25'000'000L * i})).value());
     ASSERT_FALSE(estimate.ok());
     ASSERT_GT(estimate.covariance(0, 0), 0.2 * 0.2);
   }
