@@ -13,7 +13,8 @@ constexpr double kMapped_m = 0.10;  // a feature of the scan this near to one of
 FeatureMatcher::FeatureMatcher(const FeatureMatcherConfig& config, FeatureMap map)
     : config_(config), map_(std::move(map)), tracker_(config.tracking.value_or(FeatureTrackerConfig{})) {}
 
-void FeatureMatcher::observe(const Scan& scan, const Pose2& expected, const Eigen::Matrix3d& covariance) {
+void FeatureMatcher::observe(const Scan& scan, std::span<const Eigen::Vector2d> /*points*/,
+                             const Pose2& expected, const Eigen::Matrix3d& covariance) {
   find_point_features(scan, config_.detector, config_.detecting, detecting_, features_);
   seen_count_ = features_.size();
   if (config_.tracking) tracker_.recall(expected, covariance, features_);

@@ -24,7 +24,8 @@ class FeatureMatcher final : public ScanMatcher {
  public:
   FeatureMatcher(const FeatureMatcherConfig& config, FeatureMap map);
 
-  void observe(const Scan& scan, const Pose2& expected, const Eigen::Matrix3d& covariance) override;
+  void observe(const Scan& scan, std::span<const Eigen::Vector2d> points, const Pose2& expected,
+               const Eigen::Matrix3d& covariance) override;
   MatchResult match(const Pose2& guess) override;
   std::string_view reservation(const MatchResult& taken) const override;
   void settle(const MatchResult& taken) override;

@@ -17,8 +17,9 @@ class PointsMatcher final : public ScanMatcher {
 
   PointsMatcher(ScanPoints points, Fit fit) : points_(std::move(points)), fit_(std::move(fit)) {}
 
-  void observe(const Scan& scan, const Pose2& /*expected*/, const Eigen::Matrix3d& /*covariance*/) override {
-    seen_ = points_.of(scan);
+  void observe(const Scan& scan, std::span<const Eigen::Vector2d> points, const Pose2& /*expected*/,
+               const Eigen::Matrix3d& /*covariance*/) override {
+    seen_ = points_.of(scan, points);
   }
   MatchResult match(const Pose2& guess) override { return fit_(seen_, guess); }
   bool judges_whole_scan() const override { return points_.from() == PointsFrom::whole_scan; }
@@ -27,7 +28,7 @@ class PointsMatcher final : public ScanMatcher {
  private:
   ScanPoints points_;
   Fit fit_;
-  std::span<const Eigen::Vector2d> seen_;  // into points_
+  std::span<const Eigen::Vector2d> seen_;  // into points_, or those of the scan
 };
 
 }  // namespace beaconless

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "beaconless/match/match_result.hpp"
@@ -15,9 +16,10 @@ class ScanMatcher {
  public:
   virtual ~ScanMatcher() = default;
 
-  /// Takes from a scan what it needs. In: where the laser should be now (map_from_laser, and how sure that
-  /// is).
-  virtual void observe(const Scan& scan, const Pose2& expected, const Eigen::Matrix3d& covariance) = 0;
+  /// Takes from a scan what it needs. In: the scan and all points of it (laser frame), both of which stay
+  /// until the next call; where the laser should be now (map_from_laser), and how sure that is.
+  virtual void observe(const Scan& scan, std::span<const Eigen::Vector2d> points, const Pose2& expected,
+                       const Eigen::Matrix3d& covariance) = 0;
 
   /// Fits that to the map from a guess; may be asked several times about one scan. Cost: nothing allocated
   /// once buffers have grown.

@@ -15,13 +15,9 @@ std::array<Eigen::Vector2d, 2> cross_arms(double orientation_rad, double length_
   return {along, {-along.y(), along.x()}};
 }
 
-std::span<const Eigen::Vector2d> ScanPoints::of(const Scan& scan) {
+std::span<const Eigen::Vector2d> ScanPoints::of(const Scan& scan, std::span<const Eigen::Vector2d> all) {
+  if (from_ == PointsFrom::whole_scan) return all;
   points_.clear();
-  if (from_ == PointsFrom::whole_scan) {
-    for (std::size_t beam = 0; beam < scan.size(); ++beam)
-      if (scan.is_hit(beam)) points_.push_back(scan.point(beam));
-    return points_;
-  }
   detect(scan, detector_, detecting_, scratch_, keypoints_);
   if (from_ == PointsFrom::keypoints) {
     for (const Keypoint& keypoint : keypoints_)

@@ -34,9 +34,9 @@ class ScanPoints {
 
   PointsFrom from() const { return from_; }
 
-  /// The points of a scan, laser frame; they stay until the next call. Cost: none, detect(), and
-  /// find_interest_regions() besides; nothing is allocated once buffers have grown.
-  std::span<const Eigen::Vector2d> of(const Scan& scan);
+  /// The points of a scan, of which `all` are given; laser frame, they stay until the next call. Cost: none,
+  /// detect(), and find_interest_regions() besides; nothing is allocated once buffers have grown.
+  std::span<const Eigen::Vector2d> of(const Scan& scan, std::span<const Eigen::Vector2d> all);
 
  private:
   PointsFrom from_;

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include "beaconless/geometry/pose_covariance.hpp"
 
 namespace beaconless {
 namespace {
@@ -23,20 +22,6 @@ constexpr double kVague_m = 0.1;        // a prediction less certain than this i
 constexpr double kVague_rad = radians(5.0);  // … where the whole scan tells better
 constexpr std::size_t kChecks = 240;         // beams that check a pose: the share is then known to 3 %
 
-/// Two independent opinions on the same pose, each with its covariance, of which `a` may know nothing along
-/// some direction: information adds up direction by direction, as inverting a matrix of 1e6 m² beside 1e-6 m²
-/// would not.
-Eigen::Matrix3d fused(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  constexpr double kLeast = 1e-10;  // what rounding leaves of a variance beside kUnknownSigma²
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> opinion(a);
-  Eigen::Matrix3d information = (b + 1e-12 * Eigen::Matrix3d::Identity()).inverse();
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d way = opinion.eigenvectors().col(k);
-    information += way * way.transpose() / std::max(opinion.eigenvalues()[k], kLeast);
-  }
-  return information.inverse();
-}
-
 /// The error that the robot's own motion during a sweep leaves in a fit of the sweep as if it were taken at
 /// once: the fit is right for some moment of the sweep, half of it from the stamp on average.
 Eigen::Matrix3d sweep_covariance(const Pose2& map_from_base, const Twist2& twist_per_s, double sweep_time_s) {
@@ -50,6 +35,9 @@ Eigen::Matrix3d sweep_covariance(const Pose2& map_from_base, const Twist2& twist
 const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
 const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
 
+constexpr std::string_view kOpenDirection =
+    "the walls in view leave a direction open, which is held at the prediction";
+
 std::string_view reason_of(Status status, bool was_lost) {
   if (status == Status::ok) return "";
   if (status == Status::lost) return "the scan does not fit the map here";
@@ -62,8 +50,6 @@ bool is_vague(const Prediction& prediction) {
   return prediction.covariance.topLeftCorner<2, 2>().trace() > kVague_m * kVague_m ||
          prediction.covariance(2, 2) > kVague_rad * kVague_rad;
 }
-
-Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }
 
 }  // namespace
 
@@ -101,7 +87,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   // 2. What the laser saw.
   load(*scan);
   matcher_->observe(
-      *scan, guess,
+      *scan, points_, guess,
       moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser));
   // 3. Fit it to the map from there.
   MatchResult match = fit_from(guess);
@@ -121,7 +107,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   std::string_view doubt = reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
-  last_ = doubt.empty() ? accept(match, prediction, *scan)
+  last_ = doubt.empty() ? accept(match, prediction, *scan, matcher_->reservation(match))
           : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
   first_scan_ = false;
@@ -247,42 +233,38 @@ std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const Sta
 }
 
 PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Prediction& prediction,
-                                       const Scan& scan) {
+                                       const Scan& scan, std::string_view reservation) {
+  // 1. The pose of the base, and what is known of it.
   PoseEstimate estimate;
   estimate.stamp = scan.stamp();
   estimate.map_from_base = match.map_from_laser * laser_from_base_;
   estimate.covariance = moved_covariance(match.covariance, match.map_from_laser, laser_from_base_);
   estimate.quality = match.on_map_ratio;
+  // 2. Whether the map agrees. Found again means that the place holds from scan to scan.
   const bool was_lost = health_.lost();
-  // Found again means that the place holds from scan to scan.
   if (was_lost && is_jump(match, prediction)) health_.forget_found();
   estimate.status = health_.judge(match.on_map_ratio);
   estimate.reason = reason_of(estimate.status, was_lost);
   const bool is_lost = was_lost || estimate.status == Status::lost;
   if (estimate.status != Status::ok) estimate.covariance += is_lost ? kLostCovariance : kWeakCovariance;
-  if (match.rank < 3) {
-    estimate.covariance = fused(estimate.covariance, prediction.covariance);
-    if (estimate.status == Status::ok) {
-      estimate.status = Status::degraded;
-      estimate.reason = "the walls in view leave a direction open, which is held at the prediction";
-    }
+  // 3. What rests on the prediction, wholly or along some direction, is degraded and tells no velocity.
+  const bool is_open = match.rank < 3;
+  const std::string_view caveat = is_open ? kOpenDirection : reservation;
+  if (is_open) estimate.covariance = fused_covariance(estimate.covariance, prediction.covariance);
+  if (estimate.status == Status::ok && !caveat.empty()) {
+    estimate.status = Status::degraded;
+    estimate.reason = caveat;
   }
   estimate.covariance =
       symmetric(estimate.covariance +
                 sweep_covariance(estimate.map_from_base, prediction.twist_per_s, scan.sweep_time_s()));
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
-  if (const auto reservation = matcher_->reservation(match); !reservation.empty()) {
-    if (estimate.status == Status::ok) {
-      estimate.status = Status::degraded;
-      estimate.reason = reservation;
-    }
-    motion_.hold(scan.stamp(), estimate.map_from_base, estimate.covariance);
-  } else if (match.rank < 3) {
-    motion_.hold(scan.stamp(), estimate.map_from_base, estimate.covariance);
-  } else {
+  // 4. What carries over to the next scan.
+  if (caveat.empty())
     motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
-  }
+  else
+    motion_.hold(scan.stamp(), estimate.map_from_base, estimate.covariance);
   if (health_.lost()) matcher_->forget();
   matcher_->settle(match);
   return estimate;
@@ -290,7 +272,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
 
 PoseEstimate TrackingLocalizer::stand_in(const MatchResult& whole_scan, const Prediction& prediction,
                                          const Scan& scan) {
-  PoseEstimate estimate = accept(whole_scan, prediction, scan);
+  PoseEstimate estimate = accept(whole_scan, prediction, scan, {});
   if (estimate.status != Status::ok) return estimate;
   estimate.status = Status::degraded;
   estimate.reason = "the method finds no pose here; this one is that of the whole scan against the walls";

@@ -46,7 +46,8 @@ class TrackingLocalizer final : public Localizer {
   MatchResult best_of(std::span<const StartPose> starts, const MatchResult& first,
                       const Prediction& prediction, const Fit& fit);
   std::optional<MatchResult> fit_whole_scan(std::span<const StartPose> starts, const Prediction& prediction);
-  PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan);
+  PoseEstimate accept(const MatchResult& match, const Prediction& prediction, const Scan& scan,
+                      std::string_view reservation);
   PoseEstimate stand_in(const MatchResult& whole_scan, const Prediction& prediction, const Scan& scan);
   PoseEstimate coast(const Prediction& prediction, Stamp stamp, std::string_view reason);
 

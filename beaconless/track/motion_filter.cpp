@@ -57,28 +57,21 @@ Prediction MotionFilter::predict(Stamp stamp) const {
 }
 
 void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
-  if (stamped_) {
-    const double dt = elapsed_s(stamp);
-    const Twist2 told = (1.0 / dt) * (last_.inverse() * map_from_base).log();
-    const Eigen::Matrix3d noise = (covariance_ + covariance) / (dt * dt);
-    speed_variance_ += square(config_.acceleration_mps2 * dt);
-    turn_variance_ += square(config_.turn_acceleration_radps2 * dt);
-    const double move_gain = gain(speed_variance_, 0.5 * noise.topLeftCorner<2, 2>().trace());
-    const double turn_gain = gain(turn_variance_, noise(2, 2));
-    twist_per_s_.x_m += move_gain * (told.x_m - twist_per_s_.x_m);
-    twist_per_s_.y_m += move_gain * (told.y_m - twist_per_s_.y_m);
-    twist_per_s_.theta_rad += turn_gain * (told.theta_rad - twist_per_s_.theta_rad);
-    speed_variance_ *= 1.0 - move_gain;
-    turn_variance_ *= 1.0 - turn_gain;
-    usual_step_s_ = dt;
-  } else {
-    speed_variance_ = square(kUnknownSpeed_mps);
-    turn_variance_ = square(kUnknownTurn_radps);
-  }
-  last_ = map_from_base;
-  covariance_ = covariance;
-  stamp_ = stamp;
-  stamped_ = true;
+  const bool is_first = !stamped_;
+  const double dt = is_first ? 0.0 : elapsed_s(stamp);
+  const Pose2 before = last_;
+  const Eigen::Matrix3d covariance_before = covariance_;
+  hold(stamp, map_from_base, covariance);
+  if (is_first) return;
+  const Twist2 told = (1.0 / dt) * (before.inverse() * map_from_base).log();
+  const Eigen::Matrix3d noise = (covariance_before + covariance) / (dt * dt);
+  const double move_gain = gain(speed_variance_, 0.5 * noise.topLeftCorner<2, 2>().trace());
+  const double turn_gain = gain(turn_variance_, noise(2, 2));
+  twist_per_s_.x_m += move_gain * (told.x_m - twist_per_s_.x_m);
+  twist_per_s_.y_m += move_gain * (told.y_m - twist_per_s_.y_m);
+  twist_per_s_.theta_rad += turn_gain * (told.theta_rad - twist_per_s_.theta_rad);
+  speed_variance_ *= 1.0 - move_gain;
+  turn_variance_ *= 1.0 - turn_gain;
 }
 
 void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
