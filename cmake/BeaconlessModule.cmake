@@ -16,6 +16,24 @@ if(BEACONLESS_SANITIZE)
   target_link_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE})
 endif()
 
+# beaconless_precompile(target headers…): what every source of the target would parse again is parsed once. The first
+# target of a kind names the headers; those that are compiled alike reuse them: beaconless_precompile(target FROM first).
+function(beaconless_precompile target)
+  cmake_parse_arguments(arg "" "FROM" "" ${ARGN})
+  if(NOT BEACONLESS_PRECOMPILE)
+    return()
+  endif()
+  if(arg_FROM)
+    target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
+  else()
+    target_precompile_headers(${target} PRIVATE ${arg_UNPARSED_ARGUMENTS})
+  endif()
+  # GCC 12 takes what it precompiled for no system header, and then warns of endless copies in const char* + std::string
+  # (its PR 105651).
+  target_compile_options(${target} PRIVATE
+                         "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>")
+endfunction()
+
 # beaconless_module(name [PUBLIC libs…] [PRIVATE libs…] [EXCLUDE files…])
 # The library of the folder beaconless/<name>: all its .cpp files.
 function(beaconless_module name)
@@ -30,6 +48,12 @@ function(beaconless_module name)
     add_library(${target} STATIC ${sources})
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:beaconless_build_flags> ${arg_PRIVATE})
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    if(name STREQUAL core)
+      beaconless_precompile(${target} <algorithm> <cmath> <functional> <optional> <span> <string> <variant> <vector>
+                            <Eigen/Core> <Eigen/Geometry>)
+    else()
+      beaconless_precompile(${target} FROM beaconless_core)
+    endif()
   else()
     set(scope INTERFACE)
     add_library(${target} INTERFACE)
