@@ -137,9 +137,9 @@ std::string caution(const Comparison& comparison) {
   if (static_cast<double>(coasted) < kNoticeableShare * static_cast<double>(experiment->errors.size()))
     return "";
   return fmt::format(
-      "{}: {} of {} scans were degraded and {} lost; there the pose coasts on its prediction, and after a "
-      "true "
-      "start that looks better than it is.",
+      "{}: {} of {} scans were degraded and {} lost; there the pose is not the method's own: it goes on by "
+      "the "
+      "motion alone, which after a true start looks better than it is, or the whole scan stands in.",
       row_name(comparison), experiment->degraded_count, experiment->errors.size(), experiment->lost_count);
 }
 
