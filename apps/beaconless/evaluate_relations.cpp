@@ -2,6 +2,7 @@
 #include "evaluate_relations.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -50,6 +51,22 @@ Error nothing_found(const RelationWords& words, const Trajectory& estimate,
                       estimate.back().stamp.seconds())};
 }
 
+/// Relations that count scans are only read by poses that are one a scan: where they count further than there
+/// are poses, scans were left out, and each index would find the pose of another scan.
+std::optional<Error> scan_beyond(const RelationWords& words, const Trajectory& estimate,
+                                 const std::vector<PoseRelation>& relations) {
+  if (!words.recording.empty()) return std::nullopt;
+  std::uint64_t last = 0;
+  for (const PoseRelation& relation : relations)
+    for (const PoseKey& end : {relation.from, relation.to})
+      if (const auto* scan = std::get_if<std::uint64_t>(&end)) last = std::max(last, *scan);
+  if (last < estimate.size()) return std::nullopt;
+  return Error{
+      words.relations,
+      fmt::format("it counts scans up to {}, and {} holds {} poses", last, words.estimate, estimate.size()),
+      "poses are not one a scan: give the scans' recording by --recording"};
+}
+
 }  // namespace
 
 int evaluate_relations(const Console& console, const RelationWords& words, const Trajectory& estimate) {
@@ -67,6 +84,7 @@ int evaluate_relations(const Console& console, const RelationWords& words, const
                                                    {.tolerance_s = words.tolerance_s,
                                                     .clock_offset_s = words.clock_offset_s,
                                                     .scan_stamps = std::move(stamps.value())});
+  if (const auto beyond = scan_beyond(words, estimate, *relations)) return console.fail(*beyond);
   if (evaluation.errors.empty()) return console.fail(nothing_found(words, estimate, *relations, by_stamp));
   // 3. Tell.
   console.say(fmt::format("{} relations, {} of them without a pose at one of their ends",

@@ -46,6 +46,22 @@ std::vector<std::string> shorthands(const LocalizeWords& words) {
   return set;
 }
 
+/// Refuses options that the method would not hear of.
+Result<Done> check_effect(const LocalizeWords& words, const std::string& method) {
+  const bool is_icp = method.starts_with("icp-");
+  const bool is_of_corners = method.starts_with("icp-corners");
+  const bool is_of_whole_scans = method.ends_with("-full");
+  const auto refused = [&](const char* option, const char* for_whom) {
+    return Error{option, "it changes nothing about " + method,
+                 std::string("leave it out; it is for ") + for_whom};
+  };
+  if (!words.line_fit.empty() && !is_of_corners)
+    return refused("--line-fit", "icp-corners and icp-corners-ft");
+  if (!words.loss.empty() && !is_icp) return refused("--loss", "the methods that begin with icp");
+  if (!words.preset.empty() && is_of_whole_scans) return refused("--preset", "methods of features");
+  return Done{};
+}
+
 /// The run's configuration: defaults, then the file, then the options, then each --set.
 Result<LocalizerConfig> config_of(const LocalizeWords& words) {
   LocalizerConfig config;
@@ -53,6 +69,7 @@ Result<LocalizerConfig> config_of(const LocalizeWords& words) {
   if (!words.config.empty())
     if (auto read = io::read_config(words.config, fields); !read) return read.error();
   if (!words.method.empty()) config.method = words.method;
+  if (auto heard = check_effect(words, config.method); !heard) return heard.error();
   if (!words.preset.empty()) {
     const auto preset = detectors_preset(words.preset);
     if (!preset) return preset.error();

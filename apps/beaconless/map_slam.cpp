@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,10 +18,13 @@
 #include "beaconless/report/map_view.hpp"
 #include "beaconless/slam/hector_slam.hpp"
 
+#include "poses_of.hpp"
 #include "slam_parameters.hpp"
 
 namespace beaconless::cli {
 namespace {
+
+constexpr double kNoticeableArm_m = 1e-3;
 
 /// Defaults, then the file, then the options, then each --set.
 Result<HectorSlamConfig> config_of(const MapSlamWords& words) {
@@ -140,6 +145,7 @@ void tell(const Console& console, const MapSlamWords& words, const OccupancyGrid
   console.say(fmt::format("update: median {:.0f} µs, p95 {:.0f} µs, max {:.0f} µs", times.median, times.p95,
                           times.max));
   if (!words.out_poses.empty()) console.say(words.out_poses + ": the poses");
+  if (!words.plot.empty()) console.say(words.plot + ": the map with the path");
   console.result({{"out", words.out},
                   {"width_cells", grid.width_cells},
                   {"height_cells", grid.height_cells},
@@ -151,24 +157,38 @@ void tell(const Console& console, const MapSlamWords& words, const OccupancyGrid
                   {"update_us", {{"median", times.median}, {"p95", times.p95}, {"max", times.max}}}});
 }
 
+/// Where a log that tells laser and robot apart says that the laser sits.
+std::optional<Pose2> told_place(const Console& console, const io::Recording& recording) {
+  ProblemLog unheard;
+  const auto poses = poses_of("recorded", recording, "", unheard);
+  if (!poses || !poses->base_from_laser) return std::nullopt;
+  const Pose2 told = *poses->base_from_laser;
+  if (std::hypot(told.x_m, told.y_m) < kNoticeableArm_m) return std::nullopt;
+  console.note(fmt::format("the log says that the laser sits at {:.3f},{:.3f},{:.1f} on the robot", told.x_m,
+                           told.y_m, degrees(told.theta_rad)));
+  return told;
+}
+
 }  // namespace
 
 int map_by_slam(const Console& console, const MapSlamWords& words) {
   // 1. What was asked for.
-  const auto config = config_of(words);
+  auto config = config_of(words);
   if (!config) return console.fail(config.error(), exit_usage);
   const auto scans = words.scan.selection();
   if (!scans) return console.fail(scans.error(), exit_usage);
   const auto start = pose_from_words("--start", words.start.empty() ? "0,0,0" : words.start);
   if (!start) return console.fail(start.error(), exit_usage);
-  auto slam = HectorSlam::make(*config, *start);
-  if (!slam) return console.fail(slam.error(), exit_usage);
   if (auto paths = check_paths(words); !paths) return console.fail(paths.error(), exit_usage);
   if (auto folders = check_folders(words); !folders) return console.fail(folders.error());
   // 2. Drive.
   ProblemLog problems;
   const auto recording = open_recording(words.recording, words.scan, problems);
   if (!recording) return console.fail(recording.error());
+  if (const auto told = told_place(console, *recording); told && config->base_from_laser == Pose2{})
+    config.value().base_from_laser = *told;
+  auto slam = HectorSlam::make(*config, *start);
+  if (!slam) return console.fail(slam.error(), exit_usage);
   SlamRun run = drive(console, *recording, *scans, slam.value());
   problems.report(console);
   // 3. Write.

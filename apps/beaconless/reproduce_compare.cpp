@@ -63,7 +63,7 @@ std::string on_other_tapes(const Comparison& comparison, const TapeSpread* sprea
   return fmt::format(
       " On {} other tapes of the same care the mean is {} in the median, and at or below the printed one on "
       "{:.0f} %.",
-      means.size(), with_unit(means[means.size() / 2], comparison.table->quantity), 100.0 * share);
+      means.size(), with_unit(TapeSpread::quantile(means, 0.5), comparison.table->quantity), 100.0 * share);
 }
 
 std::string row_name(const Comparison& comparison) {
@@ -94,6 +94,11 @@ double Comparison::value(MapKind map, Statistic statistic) const {
 bool Comparison::is_at_or_below(MapKind map, Statistic statistic) const {
   return std::round(kPrintedDigits * value(map, statistic)) <=
          std::round(kPrintedDigits * value_of(*row, statistic));
+}
+
+bool Comparison::is_own(MapKind map) const {
+  return static_cast<double>(on(map)->ok_count) >=
+         (1.0 - kNoticeableShare) * static_cast<double>(on(map)->errors.size());
 }
 
 std::vector<Comparison> compare(std::span<const Experiment> experiments) {
@@ -132,10 +137,7 @@ std::string why_above(const Comparison& comparison, std::span<const TapeSpread> 
 
 std::string caution(const Comparison& comparison) {
   const Experiment* experiment = comparison.on(MapKind::tape);
-  if (experiment == nullptr) return "";
-  const std::size_t coasted = experiment->degraded_count + experiment->lost_count;
-  if (static_cast<double>(coasted) < kNoticeableShare * static_cast<double>(experiment->errors.size()))
-    return "";
+  if (experiment == nullptr || comparison.is_own(MapKind::tape)) return "";
   return fmt::format(
       "{}: {} of {} scans were degraded and {} lost; there the pose is not the method's own: it goes on by "
       "the "

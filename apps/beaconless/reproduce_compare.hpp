@@ -36,6 +36,10 @@ struct Comparison {
 
   /// At or below the printed figure, to the four digits in which it was printed.
   bool is_at_or_below(MapKind map, Statistic statistic) const;
+
+  /// Whether the method itself found nine tenths of the poses or more, and did not coast or have the whole
+  /// scan stand in for it. In: there must be an experiment on that map.
+  bool is_own(MapKind map) const;
 };
 
 /// One for each row of Tables 4.3 to 4.9, in their order. Points into `experiments`.

@@ -96,6 +96,7 @@ std::string markdown(const Reproduction& r) {
       "# The experiments of the dissertation, again\n\nEvery scan is simulated, in rooms whose dimensions "
       "were chosen for this project. Beside the printed figures stands what was measured on plans with a "
       "tape's errors.\n\n";
+  if (r.is_quick) text += "This is a quick run: only the first half second of each scenario.\n\n";
   for (const std::string& finding : findings_of(r)) text += "- " + finding + "\n";
   for (const std::string& method : r.methods.left_out) text += "- Left out: " + method + ".\n";
   text += "\n";
@@ -107,7 +108,7 @@ std::string markdown(const Reproduction& r) {
   text += "\n";
   for (const MapKind map : kMapKinds)
     text += markdown(overview_matrix(map, r.experiments, r.methods.present));
-  return text + markdown(tapes_table(r.tapes, r.comparisons));
+  return r.tapes.empty() ? text : text + markdown(tapes_table(r.tapes, r.comparisons));
 }
 
 std::vector<TextFile> csv_files(const Reproduction& r) {

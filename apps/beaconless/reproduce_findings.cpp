@@ -37,14 +37,26 @@ std::string against_the_printed(const Reproduction& r) {
       above[std::string(comparison.table->number)].push_back(
           fmt::format("{} ({})", comparison.row->method, which));
   }
-  std::string text =
-      fmt::format("On tape-measured plans {} of {} printed means and RMSEs are met or undercut",
-                  score.at_or_below, score.compared);
+  if (score.compared == 0) return "None of the methods of this run stands in the printed tables.";
+  std::string text = fmt::format(
+      "On tape-measured plans {} of {} printed means and RMSEs are met or undercut{}", score.at_or_below,
+      score.compared,
+      score.not_own == 0
+          ? ""
+          : fmt::format(", {} of them by methods that found few of the poses themselves", score.not_own));
   std::vector<std::string> exceptions;
   exceptions.reserve(above.size());
   for (const auto& [number, rows] : above)
     exceptions.push_back(fmt::format("in Table {} {}", number, joined(rows)));
-  return text + (exceptions.empty() ? "." : "; above them are, " + joined(exceptions) + ".");
+  text += exceptions.empty() ? "." : "; above them are, " + joined(exceptions) + ".";
+  const LuckOfTheTape luck = luck_of(r);
+  if (luck.tapes > 0)
+    text += fmt::format(
+        " That is one tape: of the {} means {} are met here, and {:.0f} on average over {} other tapes of "
+        "the "
+        "same care.",
+        luck.compared, luck.at_or_below, luck.elsewhere, luck.tapes);
+  return text;
 }
 
 /// A method over the scenes in which nothing drives, each counting the same.
@@ -141,10 +153,26 @@ Score score_of(std::span<const Comparison> comparisons) {
     if (comparison.on(MapKind::tape) == nullptr) continue;
     for (const Statistic statistic : {Statistic::mean, Statistic::rmse}) {
       ++score.compared;
-      score.at_or_below += comparison.is_at_or_below(MapKind::tape, statistic) ? 1U : 0U;
+      if (!comparison.is_at_or_below(MapKind::tape, statistic)) continue;
+      ++score.at_or_below;
+      score.not_own += comparison.is_own(MapKind::tape) ? 0U : 1U;
     }
   }
   return score;
+}
+
+LuckOfTheTape luck_of(const Reproduction& reproduction) {
+  LuckOfTheTape luck;
+  for (const Comparison& comparison : reproduction.comparisons) {
+    const TapeSpread* spread = find(reproduction.tapes, comparison.table->scenario, comparison.row->method);
+    if (spread == nullptr || comparison.on(MapKind::tape) == nullptr) continue;
+    const auto& means = comparison.table->quantity == Quantity::position ? spread->mean_m : spread->mean_deg;
+    ++luck.compared;
+    luck.at_or_below += comparison.is_at_or_below(MapKind::tape, Statistic::mean) ? 1U : 0U;
+    luck.elsewhere += TapeSpread::share_up_to(means, comparison.row->mean);
+    luck.tapes = std::max(luck.tapes, means.size());
+  }
+  return luck;
 }
 
 std::vector<std::string> findings_of(const Reproduction& reproduction) {

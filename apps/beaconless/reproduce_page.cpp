@@ -82,10 +82,12 @@ void put_overview(report::Page& page, const Reproduction& r) {
       "stands apart from what scatters about it. An offset that stays in the room is the map's, one that "
       "turns with the robot would be that of the laser's mounting.");
   page.table(offsets_table(r.experiments, r.methods.present));
-  page.paragraph(
-      "One tape is one draw. The same rooms measured again and again, eight scans on each, every one from "
-      "its true pose:");
-  page.table(tapes_table(r.tapes, r.comparisons));
+  if (!r.tapes.empty()) {
+    page.paragraph(
+        "One tape is one draw. The same rooms measured again and again, eight scans on each, every one from "
+        "its true pose:");
+    page.table(tapes_table(r.tapes, r.comparisons));
+  }
   page.heading("All methods in all scenarios");
   for (const MapKind map : kMapKinds) page.table(overview_matrix(map, r.experiments, r.methods.present));
   for (const MapKind map : kMapKinds) page.table(overview_table(map, r.experiments));

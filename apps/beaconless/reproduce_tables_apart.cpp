@@ -54,9 +54,7 @@ report::Table tapes_table(std::span<const TapeSpread> spreads, std::span<const C
     if (spread == nullptr || comparison.on(MapKind::tape) == nullptr) continue;
     const Quantity quantity = comparison.table->quantity;
     const auto& means = quantity == Quantity::position ? spread->mean_m : spread->mean_deg;
-    const auto at = [&](double share) {
-      return means[static_cast<std::size_t>(share * static_cast<double>(means.size() - 1))];
-    };
+    const auto at = [&](double share) { return TapeSpread::quantile(means, share); };
     table.rows.push_back(
         {fmt::format("{}, {}", comparison.table->number, comparison.row->method),
          with_unit(comparison.row->mean, quantity),

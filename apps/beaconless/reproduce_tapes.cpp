@@ -67,6 +67,10 @@ double TapeSpread::share_up_to(std::span<const double> ascending, double value) 
   return static_cast<double>(count) / static_cast<double>(ascending.size());
 }
 
+double TapeSpread::quantile(std::span<const double> ascending, double share) {
+  return ascending[static_cast<std::size_t>(share * static_cast<double>(ascending.size() - 1))];
+}
+
 std::vector<TapeSpread> run_tapes(const Console& console, std::span<const Scene> scenes,
                                   std::span<const std::string> methods, int first_seed, int tapes) {
   std::vector<TapeSpread> spreads;

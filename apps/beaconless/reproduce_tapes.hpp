@@ -19,6 +19,8 @@ struct TapeSpread {
 
   /// The share of the tapes on which the mean is at or below a value.
   static double share_up_to(std::span<const double> ascending, double value);
+  /// The value that a share of the tapes stays at or below. In: at least one tape.
+  static double quantile(std::span<const double> ascending, double share);
 };
 
 /// Measures the rooms that stand in the dissertation's tables with further tapes, seeds `first_seed` on, and

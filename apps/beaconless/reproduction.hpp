@@ -28,8 +28,18 @@ struct Reproduction {
 struct Score {
   std::size_t compared = 0;
   std::size_t at_or_below = 0;
+  std::size_t not_own = 0;  ///< of those, by methods that found few of the poses themselves
 };
 Score score_of(std::span<const Comparison> comparisons);
+
+/// The same of the means alone, on this tape and in the mean over the others.
+struct LuckOfTheTape {
+  std::size_t compared = 0;
+  std::size_t at_or_below = 0;
+  double elsewhere = 0.0;
+  std::size_t tapes = 0;
+};
+LuckOfTheTape luck_of(const Reproduction& reproduction);
 
 /// What beats what, in three sentences that follow from the numbers: against the printed figures, by method
 /// on the exact plans, and among people.

@@ -34,6 +34,14 @@ std::map<std::string, std::size_t> status_counts(const Run& run) {
   return counts;
 }
 
+/// Why estimates were not ok, and how many each time.
+std::map<std::string, std::size_t> reason_counts(const Run& run) {
+  std::map<std::string, std::size_t> counts;
+  for (const PoseEstimate& estimate : run.replay.estimates)
+    if (!estimate.ok()) ++counts[fmt::format("{}: {}", to_string(estimate.status), estimate.reason)];
+  return counts;
+}
+
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
@@ -49,6 +57,7 @@ nlohmann::json summary_of(const LocalizeWords& words, const Run& run,
                             {"map", words.map},
                             {"scans", run.replay.estimates.size()},
                             {"status_counts", status_counts(run)},
+                            {"reason_counts", reason_counts(run)},
                             {"skipped_records", run.replay.skipped_records},
                             {"update_us",
                              {{"median", percentile(times, 0.5)},
@@ -82,6 +91,8 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
   if (run.replay.skipped_records > 0)
     page.problems.push_back(
         fmt::format("{} records of the recording were passed over", run.replay.skipped_records));
+  for (const auto& [reason, count] : reason_counts(run))
+    page.problems.push_back(fmt::format("{} of {} scans {}", count, run.replay.estimates.size(), reason));
   if (!judgement) return page;
   page.errors = judgement->evaluation.errors;
   page.bounds = judgement->bounds;
@@ -122,6 +133,7 @@ void tell(const Console& console, const Run& run, const nlohmann::json& summary,
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, status);
   const auto& times = summary["update_us"];
   console.say(fmt::format("{} scans by {}: {}", run.replay.estimates.size(), run.config.method, counts));
+  for (const auto& [reason, count] : reason_counts(run)) console.say(fmt::format("  {} {}", count, reason));
   console.say(fmt::format("update: median {:.0f} µs, p99 {:.0f} µs, max {:.0f} µs",
                           times["median"].get<double>(), times["p99"].get<double>(),
                           times["max"].get<double>()));
@@ -161,13 +173,16 @@ int finish_run(const Console& console, const LocalizeWords& words, const Run& ru
   }
   console.result(summary);
   const auto& estimates = run.replay.estimates;
-  const bool ever_found =
-      std::any_of(estimates.begin(), estimates.end(), [](const auto& e) { return e.ok(); });
+  const auto is_any = [&](Status status) {
+    return std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.status == status; });
+  };
+  const bool ever_found = is_any(Status::ok);
   if (ever_found && estimates.back().status != Status::lost) return exit_good;
   console.warn(
-      ever_found
-          ? "the robot is lost at the end of the recording"
-          : "the robot is lost, it was never found: check the start pose, the map and --base-from-laser");
+      ever_found ? "the robot is lost at the end of the recording"
+      : is_any(Status::lost)
+          ? "the robot is lost, it was never found: check the start pose, the map and --base-from-laser"
+          : run.config.method + " found no pose itself: try another method, or other parameters");
   return exit_lost;
 }
 

@@ -53,6 +53,13 @@ TEST_F(EvaluateRelations, ScansOfARecordingFindTheirPosesByStamp) {
   EXPECT_LT(ran.json()["translation_m"]["max"].get<double>(), 1e-6);
 }
 
+TEST_F(EvaluateRelations, ScansBeyondThePosesAreAnErrorAndNoOtherScans) {
+  const Ran ran = evaluate("0 1 1 0 1.5707963\n0 3 1 1 1.5707963\n");
+  EXPECT_NE(ran.exit_code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("it counts scans up to 3"));
+  EXPECT_THAT(ran.err, HasSubstr("--recording"));
+}
+
 TEST_F(EvaluateRelations, PeopleReadMeanAndSpread) {
   const Ran ran = evaluate("10 11 1 0 0 0 0 1.5707963\n11 12 1.1 0 0 0 0 0\n");
   EXPECT_THAT(ran.out, HasSubstr("translation 0.0500 ± 0.0500 m"));

@@ -63,13 +63,41 @@ TEST_F(Localize, WritesALineForEveryScan) {
     EXPECT_THAT(ran.out, HasSubstr(folder.path("run") + "/" + name + "\n"));
 }
 
+TEST_F(Localize, TellsWhyScansWereNotOk) {
+  const Ran ran = run(localize() + Words{"--method", "icp-corners", "--set", "feature_icp.min_pairs=1000",
+                                         "--out", folder.path("run")});
+  EXPECT_EQ(ran.exit_code, 4);
+  const auto summary = nlohmann::json::parse(folder.read("run/summary.json"));
+  EXPECT_EQ(summary["status_counts"], (nlohmann::json{{"degraded", kScans}}));
+  std::size_t told = 0;
+  for (const auto& [reason, count] : summary["reason_counts"].items()) {
+    EXPECT_TRUE(reason.starts_with("degraded: ")) << reason;
+    EXPECT_THAT(ran.out, HasSubstr(reason));
+    told += count.get<std::size_t>();
+  }
+  EXPECT_EQ(told, kScans);
+  EXPECT_THAT(ran.err, HasSubstr("icp-corners found no pose itself"));
+}
+
+TEST_F(Localize, RefusesOptionsThatWouldChangeNothing) {
+  for (const Words& words : {Words{"--method", "icp-full", "--line-fit", "ransac"},
+                             Words{"--method", "hector-full", "--loss", "cauchy"},
+                             Words{"--method", "icp-full", "--preset", "authors"}}) {
+    const Ran ran = run(localize() + words);
+    EXPECT_EQ(ran.exit_code, 2) << words[2];
+    EXPECT_THAT(ran.err, HasSubstr(words[2] + ": it changes nothing about " + words[1]));
+  }
+}
+
 TEST_F(Localize, SummaryHasTheKeysThatOthersRead) {
   const Ran ran = run(localize() + Words{"--reference", truth(), "--out", folder.path("run"), "--json"});
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const auto summary = nlohmann::json::parse(folder.read("run/summary.json"));
   EXPECT_EQ(ran.json(), summary);
-  EXPECT_EQ(keys_of(summary), (std::set<std::string>{"method", "recording", "map", "scans", "status_counts",
-                                                     "skipped_records", "update_us", "error"}));
+  EXPECT_EQ(keys_of(summary),
+            (std::set<std::string>{"method", "recording", "map", "scans", "status_counts", "reason_counts",
+                                   "skipped_records", "update_us", "error"}));
+  EXPECT_TRUE(summary["reason_counts"].empty());
   EXPECT_EQ(summary["method"], "icp-full");
   EXPECT_EQ(summary["scans"], kScans);
   EXPECT_EQ(summary["status_counts"], (nlohmann::json{{"ok", kScans}}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `beaconless map build --slam` promises.
+#include <cmath>
 #include <fstream>
 #include <set>
 
@@ -66,6 +67,36 @@ TEST_F(MapSlam, PeopleReadWhatBecameOfTheScans) {
   EXPECT_THAT(ran.out, HasSubstr("40 ok"));
   EXPECT_THAT(ran.out, HasSubstr("update: median"));
   EXPECT_THAT(ran.out, HasSubstr("hall.tum"));
+}
+
+TEST_F(MapSlam, TakesTheLasersPlaceFromALogThatTellsIt) {
+  // A robot that turns about its base, half a metre behind the laser, in the corner of a room.
+  std::string log;
+  for (int i = 0; i < 30; ++i) {
+    const double heading = 0.05 * i;
+    const Pose2 base{2.0, 1.5, heading};
+    const Pose2 laser = base * Pose2{0.5, 0.0, 0.0};
+    log += "FLASER 181";
+    for (int k = 0; k <= 180; ++k) {
+      const double bearing = laser.theta_rad + radians(k - 90.0);
+      const double to_x = (std::cos(bearing) > 0.0 ? 6.0 - laser.x_m : -laser.x_m) / std::cos(bearing);
+      const double to_y = (std::sin(bearing) > 0.0 ? 4.0 - laser.y_m : -laser.y_m) / std::sin(bearing);
+      log += " " + std::to_string(std::min(to_x, to_y));
+    }
+    for (const Pose2& pose : {laser, base})
+      log += " " + std::to_string(pose.x_m) + " " + std::to_string(pose.y_m) + " " +
+             std::to_string(pose.theta_rad);
+    log += " " + std::to_string(0.1 * i) + " host " + std::to_string(0.1 * i) + "\n";
+  }
+  const Ran ran = run({"map", "build", folder.write("turn.log", log), "--slam", "hector", "--out", map(),
+                       "--out-poses", poses()});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto found = io::read_tum(poses()).value();
+  ASSERT_EQ(found.size(), 30U);
+  for (const StampedPose& pose : found)
+    EXPECT_LT(std::hypot(pose.pose.x_m, pose.pose.y_m), 0.1)
+        << "the laser moved by 0.7 m, the base did not";
+  EXPECT_THAT(ran.err, HasSubstr("0.500,0.000,0.0"));
 }
 
 TEST_F(MapSlam, PlotsTheMapWithThePath) {
