@@ -94,8 +94,7 @@ TEST_F(MapSlam, TakesTheLasersPlaceFromALogThatTellsIt) {
   const auto found = io::read_tum(poses()).value();
   ASSERT_EQ(found.size(), 30U);
   for (const StampedPose& pose : found)
-    EXPECT_LT(std::hypot(pose.pose.x_m, pose.pose.y_m), 0.1)
-        << "the laser moved by 0.7 m, the base did not";
+    EXPECT_LT(std::hypot(pose.pose.x_m, pose.pose.y_m), 0.1) << "the laser moved by 0.7 m, the base did not";
   EXPECT_THAT(ran.err, HasSubstr("0.500,0.000,0.0"));
 }
 
