@@ -14,6 +14,7 @@
 #include "beaconless/match/hector.hpp"
 #include "beaconless/match/icp.hpp"
 #include "beaconless/match/local_search.hpp"
+#include "beaconless/match/walls.hpp"
 #include "beaconless/track/feature_tracker.hpp"
 #include "beaconless/track/motion_filter.hpp"
 
@@ -23,6 +24,7 @@ namespace beaconless {
 struct LocalizerConfig {
   std::string method = "icp-full";
   Pose2 base_from_laser;  ///< where the laser sits on the robot
+  WallsConfig walls;
   IcpConfig icp;
   PointFeaturesConfig features;   ///< how the feature methods find features …
   FeatureMapConfig feature_map;   ///< … in the map

@@ -11,6 +11,7 @@
 #include "beaconless/localize/feature_matcher.hpp"
 #include "beaconless/localize/points_matcher.hpp"
 #include "beaconless/localize/tracking_localizer.hpp"
+#include "beaconless/localize/walls_matcher.hpp"
 
 namespace beaconless {
 namespace {
@@ -19,7 +20,7 @@ constexpr int kLeastPoints = 8;      // of the crosses of two keypoints
 constexpr double kDrawnArm_m = 0.4;  // longer than those of a scan, which may be off by the difference
 
 /// What the scan is fitted by.
-enum class Fitting { icp, feature_icp, hector };
+enum class Fitting { icp, feature_icp, hector, walls };
 
 /// A method: what is taken from a scan, and how that is fitted to the map.
 struct Recipe {
@@ -34,8 +35,9 @@ struct NamedRecipe {
   Recipe recipe;
 };
 
-const std::array<NamedRecipe, 13>& recipes() {
-  static const std::array<NamedRecipe, 13> kAll{{
+const std::array<NamedRecipe, 14>& recipes() {
+  static const std::array<NamedRecipe, 14> kAll{{
+      {{"walls", "every beam against the wall that it hits, by maximum likelihood"}, {Fitting::walls}},
       {{"icp-full", "every point of the scan against the walls of the map, by re-weighted ICP"},
        {Fitting::icp}},
       {{"icp-rdp", "vertices that Douglas and Peucker keep, as corners, by re-weighted ICP"},
@@ -80,6 +82,8 @@ LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
   if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid->resolution_m / std::sqrt(12.0);
   const bool is_chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
   if (!is_chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid->resolution_m);
+  if (config.walls.map_sigma_m == 0.0) config.walls.map_sigma_m = config.icp.map_sigma_m;
+  if (config.walls.on_map_m == WallsConfig{}.on_map_m) config.walls.on_map_m = config.icp.on_map_m;
   if (config.hector.on_map_m == HectorConfig{}.on_map_m) config.hector.on_map_m = config.icp.on_map_m;
   return config;
 }
@@ -137,6 +141,14 @@ Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map&
   return {std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit)))};
 }
 
+Made make_walls(const LocalizerConfig& config, const std::shared_ptr<const SurfaceMap>& surfaces) {
+  const auto* walls = std::get_if<WallIndex>(surfaces.get());
+  if (walls == nullptr)
+    return Error{"method", "walls needs a floor plan, and the map is a grid", "use hector-full or icp-full"};
+  return {std::unique_ptr<ScanMatcher>(std::make_unique<WallsMatcher>(
+      std::shared_ptr<const WallIndex>(surfaces, walls), config.walls, config.icp))};
+}
+
 Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
                   const std::shared_ptr<const SurfaceMap>& surfaces) {
   switch (recipe.fitting) {
@@ -144,6 +156,8 @@ Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map
       return make_feature_icp(recipe, config, map);
     case Fitting::hector:
       return make_hector(recipe, config, map);
+    case Fitting::walls:
+      return make_walls(config, surfaces);
     case Fitting::icp:
       break;
   }
@@ -161,6 +175,7 @@ void describe(Fields& fields, LocalizerConfig& config) {
          "the laser's place ahead of the base");
   fields("base_from_laser.y_m", config.base_from_laser.y_m, {-100.0, 100.0}, "the laser's place to the left");
   fields("base_from_laser.theta_rad", config.base_from_laser.theta_rad, {-7.0, 7.0}, "the laser's heading");
+  fields.section("walls", config.walls);
   fields.section("icp", config.icp);
   fields.section("feature_icp", config.feature_icp);
   fields.section("feature_map", config.feature_map);

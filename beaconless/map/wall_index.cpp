@@ -78,6 +78,7 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   const Eigen::Vector2d extent = bounds.high.array() + reach_m_ - low_.array();
   cell_m_ = std::max({cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells),
                       std::sqrt(area_of_reach(segments, reach_m_) / kMaxVisits)});
+  cells_per_m_ = 1.0 / cell_m_;
   columns_ = static_cast<int>(std::ceil(extent.x() / cell_m_));
   rows_ = static_cast<int>(std::ceil(extent.y() / cell_m_));
   const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
@@ -112,17 +113,12 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
 }
 
 std::optional<SurfacePoint> WallIndex::nearest(const Eigen::Vector2d& point) const {
-  const double x = (point.x() - low_.x()) / cell_m_;
-  const double y = (point.y() - low_.y()) / cell_m_;
-  if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) return std::nullopt;  // NaN too
-  const auto cell =
-      static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
 
   double best = reach_m_ * reach_m_;
   const Wall* nearest_wall = nullptr;
   Eigen::Vector2d foot = Eigen::Vector2d::Zero();
-  for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-    const Wall& wall = walls_[candidates_[i]];
+  for (const std::uint32_t id : near(point)) {
+    const Wall& wall = walls_[id];
     const double s = std::clamp(wall.along.dot(point - wall.a), 0.0, wall.length_m);
     const Eigen::Vector2d at = wall.a + s * wall.along;
     const double square = (point - at).squaredNorm();

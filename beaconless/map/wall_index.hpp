@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "beaconless/map/floor_plan.hpp"
@@ -23,21 +24,32 @@ class WallIndex {
 
   static constexpr double kMaxCells = 16e6;
 
+  struct Wall {
+    Eigen::Vector2d a;
+    Eigen::Vector2d along;  ///< unit
+    double length_m;
+  };
+
   std::optional<SurfacePoint> nearest(const Eigen::Vector2d& point_map) const;
+  /// Every wall that is nearest to some point of the cell in which this one lies, and a few more.
+  std::span<const std::uint32_t> near(const Eigen::Vector2d& point_map) const {
+    const double x = (point_map.x() - low_.x()) * cells_per_m_;
+    const double y = (point_map.y() - low_.y()) * cells_per_m_;
+    if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) return {};  // NaN too
+    const std::uint32_t* const first =
+        first_.data() + static_cast<std::ptrdiff_t>(y) * columns_ + static_cast<std::ptrdiff_t>(x);
+    return {candidates_.data() + first[0], candidates_.data() + first[1]};
+  }
+  const Wall& wall(std::uint32_t id) const { return walls_[id]; }
 
   double reach_m() const { return reach_m_; }
   std::size_t wall_count() const { return walls_.size(); }
 
  private:
-  struct Wall {
-    Eigen::Vector2d a;
-    Eigen::Vector2d along;  // unit
-    double length_m;
-  };
-
   std::vector<Wall> walls_;
   double reach_m_ = 0.0;
   double cell_m_ = 0.0;
+  double cells_per_m_ = 0.0;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   int columns_ = 0;
   int rows_ = 0;

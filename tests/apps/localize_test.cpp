@@ -133,8 +133,8 @@ TEST_F(Localize, ConfigOfARunMarksWhatIsChangedAndReadsBack) {
                                            "health.lost_after_scans=5", "--out", folder.path("first")});
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const std::string text = folder.read("first/config.yaml");
-  // These two, the laser's place, and the noise of the five that know of it.
-  EXPECT_EQ(count_of(text, "# changed, default "), 8U) << text;
+  // These two, the laser's place, and the noise of the six that know of it.
+  EXPECT_EQ(count_of(text, "# changed, default "), 9U) << text;
   for (const char* line :
        {"\n  sigma_m: 0.02  # changed, default 0.01;", "\n  x_m: 0.7  # changed, default 0;",
         "\n  loss: cauchy  # changed, default huber;", "\n  lost_after_scans: 5  # changed, default 8;"})
@@ -142,6 +142,7 @@ TEST_F(Localize, ConfigOfARunMarksWhatIsChangedAndReadsBack) {
 
   LocalizerConfig expected;
   expected.base_from_laser.x_m = 0.7;
+  expected.walls.sigma_m = 0.02;
   expected.icp.sigma_m = 0.02;
   expected.hector.sigma_m = 0.02;
   expected.features.detectors.corners.lines.sigma_m = 0.02;

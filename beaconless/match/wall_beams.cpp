@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/match/wall_beams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace beaconless {
+namespace {
+
+struct LoopInput {
+  double x;
+  double y;
+  double cos;
+  double sin;
+  double inverse_cut2;
+};
+
+struct LoopSums {
+  std::array<double, 6> hessian;  // xx, xy, yy, xt, yt, tt
+  std::array<double, 3> gradient;
+  double weight;
+  double weighted_squares;
+  double squared_influence;
+  double curvature;
+  double arms;
+};
+
+namespace two_lanes {
+#define WALL_LANES 2
+#define WALL_TARGET
+#include "beaconless/match/wall_lanes.inc"
+#undef WALL_LANES
+#undef WALL_TARGET
+}  // namespace two_lanes
+
+#if defined(__x86_64__) || defined(__i386__)
+#define WALL_HAS_AVX2
+namespace four_lanes {
+#define WALL_LANES 4
+#define WALL_TARGET __attribute__((target("avx2,fma")))
+#include "beaconless/match/wall_lanes.inc"
+#undef WALL_LANES
+#undef WALL_TARGET
+}  // namespace four_lanes
+#endif
+
+}  // namespace
+
+void WallBeams::reserve(std::size_t beams) {
+  const std::size_t room = (beams + kLanes - 1) / kLanes * kLanes;
+  if (room <= x_m.size()) return;
+  for (auto* column : {&x_m, &y_m, &ux, &uy, &nx, &ny, &offset_m, &information}) column->resize(room);
+}
+
+void WallBeams::add(const Eigen::Vector2d& end, const Eigen::Vector2d& direction,
+                    const Eigen::Vector2d& normal, double offset, double known) {
+  x_m[count] = end.x();
+  y_m[count] = end.y();
+  ux[count] = direction.x();
+  uy[count] = direction.y();
+  nx[count] = normal.x();
+  ny[count] = normal.y();
+  offset_m[count] = offset;
+  information[count] = known;
+  ++count;
+}
+
+void WallBeams::fill_up() {
+  const std::size_t all = (count + kLanes - 1) / kLanes * kLanes;
+  for (std::size_t i = count; i < all; ++i) {
+    x_m[i] = y_m[i] = uy[i] = ny[i] = offset_m[i] = information[i] = 0.0;
+    ux[i] = nx[i] = 1.0;
+  }
+}
+
+WallLoop fastest_wall_loop() {
+#ifdef WALL_HAS_AVX2
+  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return kHasAvx2 ? WallLoop::avx2 : WallLoop::portable;
+#else
+  return WallLoop::portable;
+#endif
+}
+
+WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] WallLoop loop) {
+  const LoopInput in{step.x_m, step.y_m, std::cos(step.theta_rad), std::sin(step.theta_rad),
+                     1.0 / (cut * cut)};
+  LoopSums sums{};
+#ifdef WALL_HAS_AVX2
+  if (loop == WallLoop::avx2)
+    four_lanes::sum_lanes(beams, in, sums);
+  else
+#endif
+    two_lanes::sum_lanes(beams, in, sums);
+  const auto& [xx, xy, yy, xt, yt, tt] = sums.hessian;
+  WallSums out;
+  out.hessian << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+  out.gradient = {sums.gradient[0], sums.gradient[1], sums.gradient[2]};
+  out.weight = sums.weight;
+  out.weighted_squares = sums.weighted_squares;
+  out.squared_influence = sums.squared_influence;
+  out.curvature = sums.curvature;
+  out.arm_squares_m2 = sums.arms;
+  return out;
+}
+
+}  // namespace beaconless

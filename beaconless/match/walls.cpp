@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/match/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "beaconless/match/observability.hpp"
+
+namespace beaconless {
+namespace {
+
+constexpr int kRounds = 6;         // of pairing
+constexpr int kSteps = 8;          // of Gauss-Newton on the same pairs
+constexpr double kStill_m = 1e-4;  // a step below both is the last: the next one would be its square
+constexpr double kStill_rad = 5e-5;
+constexpr double kMoved_m = 0.01;  // pairs made this far away are made again …
+constexpr double kMoved_rad = 0.005;
+constexpr double kNarrowing = 2.0;    // of the scale from step to step, at most
+constexpr double kSlack_m = 0.005;    // by which a beam may miss the end of a wall
+constexpr double kPriorBeams = 10.0;  // that fit as well as the noise says, beside those of the scan
+constexpr double kFirst_sigma = 4.0;  // of two walls behind each other the first is taken up to here
+
+/// Mean of z² under Tukey's weights for a Gaussian, divided by the mean weight: 1 for a wide cut.
+double expected_square(double cut) { return 1.0 - 4.0 / (cut * cut + 1.0); }
+
+/// How well all points lie on the map, where they were paired.
+struct Pairing {
+  double on_map_ratio = 0.0;
+  double misfit = 1.0;
+};
+
+/// Which walls a beam may be paired with.
+struct Gate {
+  double distance_m;
+  double slack_m;  // beyond the ends of a wall
+  double first_m;  // how far behind a wall, along the beam, its beams may end
+  double least_cos;
+};
+
+/// The wall that one beam hits.
+struct Hit {
+  const WallIndex::Wall* wall = nullptr;
+  double across = 0.0;                                          // sine from the wall to the beam
+  double nearest_m2 = std::numeric_limits<double>::infinity();  // squared distance of the end to any wall
+};
+
+/// The wall that a beam meets nearest to where it ends; of two that it meets there, the first.
+inline Hit meet(const WallIndex& walls, const Eigen::Vector2d& end, const Eigen::Vector2d& direction,
+                const Gate& gate) {
+  Hit best;
+  double best_beyond_m = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t id : walls.near(end)) {
+    const WallIndex::Wall& wall = walls.wall(id);
+    const double from_x = end.x() - wall.a.x();
+    const double from_y = end.y() - wall.a.y();
+    const double along = wall.along.x() * from_x + wall.along.y() * from_y;
+    const double side = wall.along.x() * from_y - wall.along.y() * from_x;
+    const double outside = std::max({0.0, -along, along - wall.length_m});
+    best.nearest_m2 = std::min(best.nearest_m2, side * side + outside * outside);
+    const double across = wall.along.x() * direction.y() - wall.along.y() * direction.x();
+    if (std::abs(side) > gate.distance_m || std::abs(across) < gate.least_cos) continue;
+    const double beyond = side / across;  // of the beam's end, along the beam
+    const double at = along - beyond * (wall.along.x() * direction.x() + wall.along.y() * direction.y());
+    if (at < -gate.slack_m || at > wall.length_m + gate.slack_m) continue;
+    const bool is_first = beyond > best_beyond_m && beyond < gate.first_m;
+    const bool is_behind = beyond < best_beyond_m && best_beyond_m < gate.first_m;
+    if (best.wall != nullptr && !is_first && (is_behind || std::abs(beyond) >= std::abs(best_beyond_m)))
+      continue;
+    best_beyond_m = beyond;
+    best.wall = &wall;
+    best.across = across;
+  }
+  return best;
+}
+
+/// Every beam as seen from a pose: where it ends and where it goes.
+void look(std::span<const Eigen::Vector2d> points, const Pose2& pose, std::vector<WallsScratch::Ray>& rays) {
+  const double cos = std::cos(pose.theta_rad);
+  const double sin = std::sin(pose.theta_rad);
+  if (rays.size() < points.size()) rays.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = points[i].x();
+    const double y = points[i].y();
+    const double range = std::sqrt(x * x + y * y);
+    const double inverse = 1.0 / range;
+    WallsScratch::Ray& ray = rays[i];
+    ray.unit = {x * inverse, y * inverse};
+    ray.direction = {cos * ray.unit.x() - sin * ray.unit.y(), sin * ray.unit.x() + cos * ray.unit.y()};
+    ray.end = {pose.x_m + cos * x - sin * y, pose.y_m + sin * x + cos * y};
+    ray.range_m = range;
+  }
+}
+
+/// What a range to a wall tells, as information.
+class Knowledge {
+ public:
+  Knowledge(const WallsConfig& config, double map_sigma_m)
+      : own_variance_(config.sigma_m * config.sigma_m),
+        per_m2_(config.sigma_per_m * config.sigma_per_m),
+        footprint2_(config.footprint_rad * config.footprint_rad),
+        map_variance_(map_sigma_m * map_sigma_m) {}
+
+  double of(double range_m, double across) const {
+    const double inverse_cos2 = 1.0 / (across * across);
+    const double range2 = range_m * range_m;
+    return 1.0 / (own_variance_ + per_m2_ * range2 + footprint2_ * range2 * (inverse_cos2 - 1.0) +
+                  map_variance_ * inverse_cos2);
+  }
+
+ private:
+  double own_variance_;
+  double per_m2_;
+  double footprint2_;
+  double map_variance_;
+};
+
+/// Pairs every beam with the wall that it hits from `pose`.
+Pairing pair(std::span<const Eigen::Vector2d> points, const WallIndex& walls, const Pose2& pose,
+             double gate_m, double map_sigma_m, const WallsConfig& config, WallsScratch& scratch) {
+  const Gate gate{gate_m, std::max(kSlack_m, 0.3 * (gate_m - config.near_gate_m)),
+                  std::max(kFirst_sigma * config.sigma_m, 0.3 * gate_m),
+                  std::cos(radians(config.max_incidence_deg))};
+  const Knowledge knowledge(config, map_sigma_m);
+  const double cos = std::cos(pose.theta_rad);
+  const double sin = std::sin(pose.theta_rad);
+  const double on_map_m2 = config.on_map_m * config.on_map_m;
+  double fit = 0.0;
+  int on_map = 0;
+  look(points, pose, scratch.rays);
+  WallBeams& beams = scratch.beams;
+  beams.clear();
+  beams.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const WallsScratch::Ray& ray = scratch.rays[i];
+    const Hit hit = meet(walls, ray.end, ray.direction, gate);
+    if (hit.nearest_m2 <= on_map_m2) {
+      fit += 1.0 - hit.nearest_m2 / on_map_m2;
+      ++on_map;
+    }
+    if (hit.wall == nullptr) continue;
+    // The normal looks away from the laser.
+    const double sign = hit.across > 0.0 ? 1.0 : -1.0;
+    const double nx = -sign * hit.wall->along.y();
+    const double ny = sign * hit.wall->along.x();
+    beams.add(points[i], ray.unit, {cos * nx + sin * ny, cos * ny - sin * nx},
+              nx * (hit.wall->a.x() - pose.x_m) + ny * (hit.wall->a.y() - pose.y_m),
+              knowledge.of(ray.range_m, hit.across));
+  }
+  beams.fill_up();
+  const double all = static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  return {on_map / all, 1.0 - fit / all};
+}
+
+/// Where Gauss-Newton ends on fixed pairs, and the sums there.
+struct Fit {
+  Pose2 step;
+  WallSums sums;
+  double scale = 1.0;  // measured, in expected standard deviations
+  double cut = 0.0;    // of the weights
+  int weak_count = 0;
+  int iterations = 0;
+  bool is_still = false;
+};
+
+double arm_of(const WallSums& sums) {
+  return std::sqrt(sums.arm_squares_m2 / std::max(sums.weight, 1e-9)) + 1e-3;
+}
+
+Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& config, WallLoop loop) {
+  Fit fit;
+  fit.scale = std::max(1.0, first_scale);
+  fit.sums = sum_walls(beams, fit.step, config.cut_sigma * fit.scale, loop);
+  for (fit.iterations = 1; fit.iterations <= kSteps; ++fit.iterations) {
+    const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
+    const Eigen::Vector3d step = -seen.inverse() * fit.sums.gradient;
+    fit.weak_count = seen.weak_count;
+    fit.step = stepped(fit.step, step);
+    const double measured = std::sqrt((fit.sums.weighted_squares + kPriorBeams) /
+                                      (fit.sums.weight + kPriorBeams) / expected_square(config.cut_sigma));
+    const double before = fit.scale;
+    fit.scale = std::clamp(measured, std::max(1.0, before / kNarrowing), std::max(1.0, before));
+    fit.cut = config.cut_sigma * fit.scale;
+    fit.sums = sum_walls(beams, fit.step, fit.cut, loop);
+    fit.is_still =
+        step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad && fit.scale > 0.95 * before;
+    if (fit.is_still) break;
+  }
+  return fit;
+}
+
+/// Of the pose that maximises the likelihood, with the variance of a range measured where it was fitted.
+/// Source: Huber 1981, 6.3, for weights that depend on the residual.
+Eigen::Matrix3d covariance_of(const Fit& fit, const Observability& seen, const Pose2& pose,
+                              double map_sigma_m) {
+  const double count = std::max(fit.sums.weight, 1.0);
+  const double influence = (fit.sums.squared_influence + kPriorBeams) / (count + kPriorBeams);
+  const double curvature = std::clamp(fit.sums.curvature / count, 0.2, 1.0);
+  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
+  to_map.topLeftCorner<2, 2>() = pose.rotation();
+  Eigen::Matrix3d covariance = influence / (curvature * curvature) * seen.inverse() + seen.unknown();
+  // The map's error does not average out over the beams of a wall.
+  const double arm_m = arm_of(fit.sums);
+  covariance.diagonal() += map_sigma_m * map_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
+  return to_map * covariance * to_map.transpose();
+}
+
+}  // namespace
+
+void describe(Fields& fields, WallsConfig& config) {
+  fields("sigma_m", config.sigma_m, {1e-4, 1.0}, "standard deviation of the laser's ranges");
+  fields("sigma_per_m", config.sigma_per_m, {0.0, 0.1}, "what that grows by with every metre of range");
+  fields("footprint_rad", config.footprint_rad, {0.0, 0.1},
+         "half the divergence of a beam; at a slant it sees a piece of the wall");
+  fields("map_sigma_m", config.map_sigma_m, {0.0, 1.0},
+         "standard deviation of the map's walls; 0: none for a floor plan, that of its cells for a grid");
+  fields("gate_m", config.gate_m, {0.01, 10.0},
+         "from a rough guess, beams that end further from every wall are left out");
+  fields("near_gate_m", config.near_gate_m, {0.005, 1.0},
+         "the same from a good guess, unless noise is larger");
+  fields("cut_sigma", config.cut_sigma, {3.0, 100.0},
+         "beams this many standard deviations from their wall know nothing");
+  fields("max_incidence_deg", config.max_incidence_deg, {10.0, 89.9},
+         "beams that graze a wall more than this are left out");
+  fields("on_map_m", config.on_map_m, {0.001, 1.0},
+         "a point this near to a wall counts as explained by the map");
+  fields("unobservable_sigma_m", config.unobservable_sigma_m, {1e-3, 100.0},
+         "a direction that the scan tells less well than this is held at the prediction");
+  fields("min_pairs", config.min_pairs, {3, 100000}, "fewer beams that hit walls make no match");
+}
+
+MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls, const Pose2& guess,
+                        double prior_m, const WallsConfig& config, WallsScratch& scratch) {
+  const WallLoop loop = fastest_wall_loop();
+  const double noise_m = std::hypot(config.sigma_m, config.map_sigma_m);
+  MatchResult result;
+  result.map_from_laser = guess;
+  double gate_m = std::clamp(4.0 * prior_m, std::max(config.near_gate_m, config.cut_sigma * noise_m),
+                             std::max(config.gate_m, config.cut_sigma * noise_m));
+  for (int round = 1; round <= kRounds; ++round) {
+    // 1. Which wall every beam hits, as seen from where the laser is thought to be.
+    const Pose2 before = result.map_from_laser;
+    const Pairing pairing = pair(points, walls, before, gate_m, config.map_sigma_m, config, scratch);
+    result.on_map_ratio = pairing.on_map_ratio;
+    result.misfit = pairing.misfit;
+    result.pair_count = static_cast<int>(scratch.beams.count);
+    if (result.pair_count < config.min_pairs) {
+      result.map_from_laser = guess;
+      result.status = MatchStatus::too_few_pairs;
+      return result;
+    }
+    // 2. The pose from which they hit them best.
+    const Fit fit = descend(scratch.beams, gate_m / (config.cut_sigma * noise_m), config, loop);
+    const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
+    result.map_from_laser = before * fit.step;
+    result.covariance = covariance_of(fit, seen, before, config.map_sigma_m);
+    result.rank = 3 - seen.weak_count;
+    const Eigen::Vector3d weak = seen.directions.col(0).normalized();
+    result.weak_direction << before.rotation() * weak.head<2>(), weak.z();
+    result.scale_m = fit.scale * noise_m;
+    result.iterations += fit.iterations;
+    result.status = MatchStatus::converged;
+    // 3. Pairs that were made from too far away, or too generously, are made again.
+    const double next_gate_m =
+        std::min(gate_m, std::max(config.near_gate_m, config.cut_sigma * result.scale_m));
+    const bool has_moved =
+        fit.step.translation().norm() > kMoved_m || std::abs(fit.step.theta_rad) > kMoved_rad;
+    if (!has_moved && next_gate_m > 0.8 * gate_m) break;
+    gate_m = next_gate_m;
+    result.status = MatchStatus::max_iterations;
+  }
+  return result;
+}
+
+}  // namespace beaconless
