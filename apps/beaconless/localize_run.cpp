@@ -40,8 +40,9 @@ std::vector<std::string> shorthands(const LocalizeWords& words) {
   if (!words.loss.empty())
     for (const char* name : {"icp.loss", "feature_icp.loss"}) set.push_back(name + ("=" + words.loss));
   if (words.sigma_m > 0.0)
-    for (const char* name : {"walls.sigma_m", "icp.sigma_m", "hector.sigma_m", "features.corners.lines.sigma_m",
-                             "features.falko.sigma_m", "features.rdp.segmentation.sigma_m"})
+    for (const char* name :
+         {"walls.sigma_m", "icp.sigma_m", "hector.sigma_m", "features.corners.lines.sigma_m",
+          "features.falko.sigma_m", "features.rdp.segmentation.sigma_m"})
       set.push_back(fmt::format("{}={}", name, words.sigma_m));
   return set;
 }

@@ -113,7 +113,6 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
 }
 
 std::optional<SurfacePoint> WallIndex::nearest(const Eigen::Vector2d& point) const {
-
   double best = reach_m_ * reach_m_;
   const Wall* nearest_wall = nullptr;
   Eigen::Vector2d foot = Eigen::Vector2d::Zero();
