@@ -16,9 +16,12 @@ constexpr double kStill_m = 1e-4;  // a step below both is the last: the next on
 constexpr double kStill_rad = 5e-5;
 constexpr double kMoved_m = 0.01;  // pairs made this far away are made again …
 constexpr double kMoved_rad = 0.005;
+constexpr double kLeastCurvature = 0.5;
+constexpr double kSettled = 0.95;     // of the scale before, and it narrows no more
 constexpr double kNarrowing = 2.0;    // of the scale from step to step, at most
 constexpr double kSlack_m = 0.005;    // by which a beam may miss the end of a wall
 constexpr double kPriorBeams = 10.0;  // that fit as well as the noise says, beside those of the scan
+constexpr double kPlain_sigma = 3.0;  // this near to the wall of the beam before, a beam is on it too
 constexpr double kFirst_sigma = 4.0;  // of two walls behind each other the first is taken up to here
 
 /// Mean of z² under Tukey's weights for a Gaussian, divided by the mean weight: 1 for a wide cut.
@@ -74,6 +77,23 @@ inline Hit meet(const WallIndex& walls, const Eigen::Vector2d& end, const Eigen:
   return best;
 }
 
+/// Whether a beam plainly hits the wall that the beam before it hit: well within its ends, and nearer to it
+/// than noise alone would have it. Then no other wall needs to be looked up.
+inline bool hits_again(Hit& hit, const WallsScratch::Ray& ray, double near_m, double least_cos) {
+  const WallIndex::Wall& wall = *hit.wall;
+  const double from_x = ray.end.x() - wall.a.x();
+  const double from_y = ray.end.y() - wall.a.y();
+  const double along = wall.along.x() * from_x + wall.along.y() * from_y;
+  const double side = wall.along.x() * from_y - wall.along.y() * from_x;
+  const double across = wall.along.x() * ray.direction.y() - wall.along.y() * ray.direction.x();
+  // |side| below near · |across| is |beyond| below near; the way along the wall is then below near too.
+  const bool is_hit = std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos &&
+                      along > near_m && along < wall.length_m - near_m;
+  hit.across = across;
+  hit.nearest_m2 = side * side;
+  return is_hit;
+}
+
 /// Every beam as seen from a pose: where it ends and where it goes.
 void look(std::span<const Eigen::Vector2d> points, const Pose2& pose, std::vector<WallsScratch::Ray>& rays) {
   const double cos = std::cos(pose.theta_rad);
@@ -99,9 +119,11 @@ class Knowledge {
       : own_variance_(config.sigma_m * config.sigma_m),
         per_m2_(config.sigma_per_m * config.sigma_per_m),
         footprint2_(config.footprint_rad * config.footprint_rad),
-        map_variance_(map_sigma_m * map_sigma_m) {}
+        map_variance_(map_sigma_m * map_sigma_m),
+        is_the_same_(per_m2_ == 0.0 && footprint2_ == 0.0 && map_variance_ == 0.0) {}
 
   double of(double range_m, double across) const {
+    if (is_the_same_) return 1.0 / own_variance_;
     const double inverse_cos2 = 1.0 / (across * across);
     const double range2 = range_m * range_m;
     return 1.0 / (own_variance_ + per_m2_ * range2 + footprint2_ * range2 * (inverse_cos2 - 1.0) +
@@ -113,6 +135,7 @@ class Knowledge {
   double per_m2_;
   double footprint2_;
   double map_variance_;
+  bool is_the_same_;  // for all beams
 };
 
 /// Pairs every beam with the wall that it hits from `pose`.
@@ -125,6 +148,8 @@ Pairing pair(std::span<const Eigen::Vector2d> points, const WallIndex& walls, co
   const double cos = std::cos(pose.theta_rad);
   const double sin = std::sin(pose.theta_rad);
   const double on_map_m2 = config.on_map_m * config.on_map_m;
+  const double plain_m = kPlain_sigma * config.sigma_m;
+  Hit hit;
   double fit = 0.0;
   int on_map = 0;
   look(points, pose, scratch.rays);
@@ -133,7 +158,8 @@ Pairing pair(std::span<const Eigen::Vector2d> points, const WallIndex& walls, co
   beams.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const WallsScratch::Ray& ray = scratch.rays[i];
-    const Hit hit = meet(walls, ray.end, ray.direction, gate);
+    if (hit.wall == nullptr || !hits_again(hit, ray, plain_m, gate.least_cos))
+      hit = meet(walls, ray.end, ray.direction, gate);
     if (hit.nearest_m2 <= on_map_m2) {
       fit += 1.0 - hit.nearest_m2 / on_map_m2;
       ++on_map;
@@ -155,12 +181,9 @@ Pairing pair(std::span<const Eigen::Vector2d> points, const WallIndex& walls, co
 /// Where Gauss-Newton ends on fixed pairs, and the sums there.
 struct Fit {
   Pose2 step;
-  WallSums sums;
+  WallSums sums;       // a last small step before it
   double scale = 1.0;  // measured, in expected standard deviations
-  double cut = 0.0;    // of the weights
-  int weak_count = 0;
   int iterations = 0;
-  bool is_still = false;
 };
 
 double arm_of(const WallSums& sums) {
@@ -169,22 +192,23 @@ double arm_of(const WallSums& sums) {
 
 Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& config, WallLoop loop) {
   Fit fit;
-  fit.scale = std::max(1.0, first_scale);
-  fit.sums = sum_walls(beams, fit.step, config.cut_sigma * fit.scale, loop);
+  double next_scale = std::max(1.0, first_scale);
   for (fit.iterations = 1; fit.iterations <= kSteps; ++fit.iterations) {
-    const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
-    const Eigen::Vector3d step = -seen.inverse() * fit.sums.gradient;
-    fit.weak_count = seen.weak_count;
-    fit.step = stepped(fit.step, step);
+    // 1. How the beams fit here, and what they scatter by.
+    fit.scale = next_scale;
+    fit.sums = sum_walls(beams, fit.step, config.cut_sigma * fit.scale, loop);
     const double measured = std::sqrt((fit.sums.weighted_squares + kPriorBeams) /
                                       (fit.sums.weight + kPriorBeams) / expected_square(config.cut_sigma));
-    const double before = fit.scale;
-    fit.scale = std::clamp(measured, std::max(1.0, before / kNarrowing), std::max(1.0, before));
-    fit.cut = config.cut_sigma * fit.scale;
-    fit.sums = sum_walls(beams, fit.step, fit.cut, loop);
-    fit.is_still =
-        step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad && fit.scale > 0.95 * before;
-    if (fit.is_still) break;
+    next_scale = std::clamp(measured, std::max(1.0, fit.scale / kNarrowing), std::max(1.0, fit.scale));
+    // 2. Step along what they determine. What a small last step would change about the sums is its square.
+    const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
+    // The weights fall as residuals grow, which H does not know of; their mean curvature makes up for it.
+    const double curvature =
+        std::clamp(fit.sums.curvature / std::max(fit.sums.weight, 1.0), kLeastCurvature, 1.0);
+    const Eigen::Vector3d step = -seen.inverse() * fit.sums.gradient / curvature;
+    fit.step = stepped(fit.step, step);
+    const bool is_still = step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad;
+    if (is_still && next_scale > kSettled * fit.scale) break;
   }
   return fit;
 }
