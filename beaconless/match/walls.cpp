@@ -17,12 +17,14 @@ constexpr double kStill_rad = 5e-5;
 constexpr double kMoved_m = 0.01;  // pairs made this far away are made again …
 constexpr double kMoved_rad = 0.005;
 constexpr double kLeastCurvature = 0.5;
-constexpr double kSettled = 0.95;     // of the scale before, and it narrows no more
-constexpr double kNarrowing = 2.0;    // of the scale from step to step, at most
-constexpr double kSlack_m = 0.005;    // by which a beam may miss the end of a wall
-constexpr double kPriorBeams = 10.0;  // that fit as well as the noise says, beside those of the scan
-constexpr double kPlain_sigma = 3.0;  // this near to the wall of the beam before, a beam is on it too
-constexpr double kFirst_sigma = 4.0;  // of two walls behind each other the first is taken up to here
+constexpr double kSettled = 0.95;        // of the scale before, and it narrows no more
+constexpr double kNarrowing = 2.0;       // of the scale from step to step, at most
+constexpr double kMoreThanNoise = 1.08;  // a scale above this is not the laser's alone
+constexpr double kAcross = 0.75;         // of what is off along the beams, over all angles of incidence
+constexpr double kSlack_m = 0.005;       // by which a beam may miss the end of a wall
+constexpr double kPriorBeams = 10.0;     // that fit as well as the noise says, beside those of the scan
+constexpr double kPlain_sigma = 3.0;     // this near to the wall of the beam before, a beam is on it too
+constexpr double kFirst_sigma = 4.0;     // of two walls behind each other the first is taken up to here
 
 /// Mean of z² under Tukey's weights for a Gaussian, divided by the mean weight: 1 for a wide cut.
 double expected_square(double cut) { return 1.0 - 4.0 / (cut * cut + 1.0); }
@@ -257,6 +259,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
                         double prior_m, const WallsConfig& config, WallsScratch& scratch) {
   const WallLoop loop = fastest_wall_loop();
   const double noise_m = std::hypot(config.sigma_m, config.map_sigma_m);
+  double map_sigma_m = config.map_sigma_m;
+  bool is_map_blamed = false;
   MatchResult result;
   result.map_from_laser = guess;
   double gate_m = std::clamp(4.0 * prior_m, std::max(config.near_gate_m, config.cut_sigma * noise_m),
@@ -264,7 +268,7 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
   for (int round = 1; round <= kRounds; ++round) {
     // 1. Which wall every beam hits, as seen from where the laser is thought to be.
     const Pose2 before = result.map_from_laser;
-    const Pairing pairing = pair(points, walls, before, gate_m, config.map_sigma_m, config, scratch);
+    const Pairing pairing = pair(points, walls, before, gate_m, map_sigma_m, config, scratch);
     result.on_map_ratio = pairing.on_map_ratio;
     result.misfit = pairing.misfit;
     result.pair_count = static_cast<int>(scratch.beams.count);
@@ -277,7 +281,7 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const Fit fit = descend(scratch.beams, gate_m / (config.cut_sigma * noise_m), config, loop);
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
     result.map_from_laser = before * fit.step;
-    result.covariance = covariance_of(fit, seen, before, config.map_sigma_m);
+    result.covariance = covariance_of(fit, seen, before, map_sigma_m);
     result.rank = 3 - seen.weak_count;
     const Eigen::Vector3d weak = seen.directions.col(0).normalized();
     result.weak_direction << before.rotation() * weak.head<2>(), weak.z();
@@ -289,7 +293,14 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
         std::min(gate_m, std::max(config.near_gate_m, config.cut_sigma * result.scale_m));
     const bool has_moved =
         fit.step.translation().norm() > kMoved_m || std::abs(fit.step.theta_rad) > kMoved_rad;
-    if (!has_moved && next_gate_m > 0.8 * gate_m) break;
+    const bool is_settled = !has_moved && next_gate_m > 0.8 * gate_m;
+    // 4. What scatters more than the laser does is the map: its walls are off across, not along the beams.
+    const bool is_off = fit.scale > kMoreThanNoise && !is_map_blamed;
+    if (is_settled && !is_off) break;
+    if (is_settled) {
+      map_sigma_m = std::hypot(map_sigma_m, kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0));
+      is_map_blamed = true;
+    }
     gate_m = next_gate_m;
     result.status = MatchStatus::max_iterations;
   }
