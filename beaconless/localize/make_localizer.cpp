@@ -82,8 +82,6 @@ LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
   if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid->resolution_m / std::sqrt(12.0);
   const bool is_chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
   if (!is_chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid->resolution_m);
-  if (config.walls.map_sigma_m == 0.0) config.walls.map_sigma_m = config.icp.map_sigma_m;
-  if (config.walls.on_map_m == WallsConfig{}.on_map_m) config.walls.on_map_m = config.icp.on_map_m;
   if (config.hector.on_map_m == HectorConfig{}.on_map_m) config.hector.on_map_m = config.icp.on_map_m;
   return config;
 }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "beaconless/match/observability.hpp"
+#include "beaconless/match/wall_pairs.hpp"
 
 namespace beaconless {
 namespace {
@@ -21,164 +21,10 @@ constexpr double kSettled = 0.95;        // of the scale before, and it narrows 
 constexpr double kNarrowing = 2.0;       // of the scale from step to step, at most
 constexpr double kMoreThanNoise = 1.08;  // a scale above this is not the laser's alone
 constexpr double kAcross = 0.75;         // of what is off along the beams, over all angles of incidence
-constexpr double kSlack_m = 0.005;       // by which a beam may miss the end of a wall
 constexpr double kPriorBeams = 10.0;     // that fit as well as the noise says, beside those of the scan
-constexpr double kPlain_sigma = 3.0;     // this near to the wall of the beam before, a beam is on it too
-constexpr double kFirst_sigma = 4.0;     // of two walls behind each other the first is taken up to here
 
-/// Mean of z² under Tukey's weights for a Gaussian, divided by the mean weight: 1 for a wide cut.
+/// About the mean of z² under Tukey's weights for a Gaussian, divided by the mean weight: 1 for a wide cut.
 double expected_square(double cut) { return 1.0 - 4.0 / (cut * cut + 1.0); }
-
-/// How well all points lie on the map, where they were paired.
-struct Pairing {
-  double on_map_ratio = 0.0;
-  double misfit = 1.0;
-};
-
-/// Which walls a beam may be paired with.
-struct Gate {
-  double distance_m;
-  double slack_m;  // beyond the ends of a wall
-  double first_m;  // how far behind a wall, along the beam, its beams may end
-  double least_cos;
-};
-
-/// The wall that one beam hits.
-struct Hit {
-  const WallIndex::Wall* wall = nullptr;
-  double across = 0.0;                                          // sine from the wall to the beam
-  double nearest_m2 = std::numeric_limits<double>::infinity();  // squared distance of the end to any wall
-};
-
-/// The wall that a beam meets nearest to where it ends; of two that it meets there, the first.
-inline Hit meet(const WallIndex& walls, const Eigen::Vector2d& end, const Eigen::Vector2d& direction,
-                const Gate& gate) {
-  Hit best;
-  double best_beyond_m = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t id : walls.near(end)) {
-    const WallIndex::Wall& wall = walls.wall(id);
-    const double from_x = end.x() - wall.a.x();
-    const double from_y = end.y() - wall.a.y();
-    const double along = wall.along.x() * from_x + wall.along.y() * from_y;
-    const double side = wall.along.x() * from_y - wall.along.y() * from_x;
-    const double outside = std::max({0.0, -along, along - wall.length_m});
-    best.nearest_m2 = std::min(best.nearest_m2, side * side + outside * outside);
-    const double across = wall.along.x() * direction.y() - wall.along.y() * direction.x();
-    if (std::abs(side) > gate.distance_m || std::abs(across) < gate.least_cos) continue;
-    const double beyond = side / across;  // of the beam's end, along the beam
-    const double at = along - beyond * (wall.along.x() * direction.x() + wall.along.y() * direction.y());
-    if (at < -gate.slack_m || at > wall.length_m + gate.slack_m) continue;
-    const bool is_first = beyond > best_beyond_m && beyond < gate.first_m;
-    const bool is_behind = beyond < best_beyond_m && best_beyond_m < gate.first_m;
-    if (best.wall != nullptr && !is_first && (is_behind || std::abs(beyond) >= std::abs(best_beyond_m)))
-      continue;
-    best_beyond_m = beyond;
-    best.wall = &wall;
-    best.across = across;
-  }
-  return best;
-}
-
-/// Whether a beam plainly hits the wall that the beam before it hit: well within its ends, and nearer to it
-/// than noise alone would have it. Then no other wall needs to be looked up.
-inline bool hits_again(Hit& hit, const WallsScratch::Ray& ray, double near_m, double least_cos) {
-  const WallIndex::Wall& wall = *hit.wall;
-  const double from_x = ray.end.x() - wall.a.x();
-  const double from_y = ray.end.y() - wall.a.y();
-  const double along = wall.along.x() * from_x + wall.along.y() * from_y;
-  const double side = wall.along.x() * from_y - wall.along.y() * from_x;
-  const double across = wall.along.x() * ray.direction.y() - wall.along.y() * ray.direction.x();
-  // |side| below near · |across| is |beyond| below near; the way along the wall is then below near too.
-  const bool is_hit = std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos &&
-                      along > near_m && along < wall.length_m - near_m;
-  hit.across = across;
-  hit.nearest_m2 = side * side;
-  return is_hit;
-}
-
-/// Every beam as seen from a pose: where it ends and where it goes.
-void look(std::span<const Eigen::Vector2d> points, const Pose2& pose, std::vector<WallsScratch::Ray>& rays) {
-  const double cos = std::cos(pose.theta_rad);
-  const double sin = std::sin(pose.theta_rad);
-  if (rays.size() < points.size()) rays.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points[i].x();
-    const double y = points[i].y();
-    const double range = std::sqrt(x * x + y * y);
-    const double inverse = 1.0 / range;
-    WallsScratch::Ray& ray = rays[i];
-    ray.unit = {x * inverse, y * inverse};
-    ray.direction = {cos * ray.unit.x() - sin * ray.unit.y(), sin * ray.unit.x() + cos * ray.unit.y()};
-    ray.end = {pose.x_m + cos * x - sin * y, pose.y_m + sin * x + cos * y};
-    ray.range_m = range;
-  }
-}
-
-/// What a range to a wall tells, as information.
-class Knowledge {
- public:
-  Knowledge(const WallsConfig& config, double map_sigma_m)
-      : own_variance_(config.sigma_m * config.sigma_m),
-        per_m2_(config.sigma_per_m * config.sigma_per_m),
-        footprint2_(config.footprint_rad * config.footprint_rad),
-        map_variance_(map_sigma_m * map_sigma_m),
-        is_the_same_(per_m2_ == 0.0 && footprint2_ == 0.0 && map_variance_ == 0.0) {}
-
-  double of(double range_m, double across) const {
-    if (is_the_same_) return 1.0 / own_variance_;
-    const double inverse_cos2 = 1.0 / (across * across);
-    const double range2 = range_m * range_m;
-    return 1.0 / (own_variance_ + per_m2_ * range2 + footprint2_ * range2 * (inverse_cos2 - 1.0) +
-                  map_variance_ * inverse_cos2);
-  }
-
- private:
-  double own_variance_;
-  double per_m2_;
-  double footprint2_;
-  double map_variance_;
-  bool is_the_same_;  // for all beams
-};
-
-/// Pairs every beam with the wall that it hits from `pose`.
-Pairing pair(std::span<const Eigen::Vector2d> points, const WallIndex& walls, const Pose2& pose,
-             double gate_m, double map_sigma_m, const WallsConfig& config, WallsScratch& scratch) {
-  const Gate gate{gate_m, std::max(kSlack_m, 0.3 * (gate_m - config.near_gate_m)),
-                  std::max(kFirst_sigma * config.sigma_m, 0.3 * gate_m),
-                  std::cos(radians(config.max_incidence_deg))};
-  const Knowledge knowledge(config, map_sigma_m);
-  const double cos = std::cos(pose.theta_rad);
-  const double sin = std::sin(pose.theta_rad);
-  const double on_map_m2 = config.on_map_m * config.on_map_m;
-  const double plain_m = kPlain_sigma * config.sigma_m;
-  Hit hit;
-  double fit = 0.0;
-  int on_map = 0;
-  look(points, pose, scratch.rays);
-  WallBeams& beams = scratch.beams;
-  beams.clear();
-  beams.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const WallsScratch::Ray& ray = scratch.rays[i];
-    if (hit.wall == nullptr || !hits_again(hit, ray, plain_m, gate.least_cos))
-      hit = meet(walls, ray.end, ray.direction, gate);
-    if (hit.nearest_m2 <= on_map_m2) {
-      fit += 1.0 - hit.nearest_m2 / on_map_m2;
-      ++on_map;
-    }
-    if (hit.wall == nullptr) continue;
-    // The normal looks away from the laser.
-    const double sign = hit.across > 0.0 ? 1.0 : -1.0;
-    const double nx = -sign * hit.wall->along.y();
-    const double ny = sign * hit.wall->along.x();
-    beams.add(points[i], ray.unit, {cos * nx + sin * ny, cos * ny - sin * nx},
-              nx * (hit.wall->a.x() - pose.x_m) + ny * (hit.wall->a.y() - pose.y_m),
-              knowledge.of(ray.range_m, hit.across));
-  }
-  beams.fill_up();
-  const double all = static_cast<double>(std::max<std::size_t>(points.size(), 1));
-  return {on_map / all, 1.0 - fit / all};
-}
 
 /// Where Gauss-Newton ends on fixed pairs, and the sums there.
 struct Fit {
@@ -239,7 +85,7 @@ void describe(Fields& fields, WallsConfig& config) {
   fields("footprint_rad", config.footprint_rad, {0.0, 0.1},
          "half the divergence of a beam; at a slant it sees a piece of the wall");
   fields("map_sigma_m", config.map_sigma_m, {0.0, 1.0},
-         "standard deviation of the map's walls; 0: none for a floor plan, that of its cells for a grid");
+         "standard deviation of the map's walls; what the residuals tell is added");
   fields("gate_m", config.gate_m, {0.01, 10.0},
          "from a rough guess, beams that end further from every wall are left out");
   fields("near_gate_m", config.near_gate_m, {0.005, 1.0},
@@ -258,8 +104,8 @@ void describe(Fields& fields, WallsConfig& config) {
 MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls, const Pose2& guess,
                         double prior_m, const WallsConfig& config, WallsScratch& scratch) {
   const WallLoop loop = fastest_wall_loop();
-  const double noise_m = std::hypot(config.sigma_m, config.map_sigma_m);
-  double map_sigma_m = config.map_sigma_m;
+  WallsConfig believed = config;
+  double noise_m = std::hypot(config.sigma_m, config.map_sigma_m);
   bool is_map_blamed = false;
   MatchResult result;
   result.map_from_laser = guess;
@@ -268,7 +114,7 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
   for (int round = 1; round <= kRounds; ++round) {
     // 1. Which wall every beam hits, as seen from where the laser is thought to be.
     const Pose2 before = result.map_from_laser;
-    const Pairing pairing = pair(points, walls, before, gate_m, map_sigma_m, config, scratch);
+    const WallPairing pairing = pair_with_walls(points, walls, before, gate_m, believed, scratch);
     result.on_map_ratio = pairing.on_map_ratio;
     result.misfit = pairing.misfit;
     result.pair_count = static_cast<int>(scratch.beams.count);
@@ -281,7 +127,7 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const Fit fit = descend(scratch.beams, gate_m / (config.cut_sigma * noise_m), config, loop);
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
     result.map_from_laser = before * fit.step;
-    result.covariance = covariance_of(fit, seen, before, map_sigma_m);
+    result.covariance = covariance_of(fit, seen, before, believed.map_sigma_m);
     result.rank = 3 - seen.weak_count;
     const Eigen::Vector3d weak = seen.directions.col(0).normalized();
     result.weak_direction << before.rotation() * weak.head<2>(), weak.z();
@@ -298,7 +144,9 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const bool is_off = fit.scale > kMoreThanNoise && !is_map_blamed;
     if (is_settled && !is_off) break;
     if (is_settled) {
-      map_sigma_m = std::hypot(map_sigma_m, kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0));
+      const double off_m = kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0);
+      believed.map_sigma_m = std::hypot(believed.map_sigma_m, off_m);
+      noise_m = std::hypot(noise_m, off_m);
       is_map_blamed = true;
     }
     gate_m = next_gate_m;

@@ -18,7 +18,7 @@ struct WallsConfig {
   double sigma_m = 0.01;       ///< range noise of the laser …
   double sigma_per_m = 0.0;    ///< … and what it grows by with the range
   double footprint_rad = 0.0;  ///< half the divergence of a beam: at a slant it sees a piece of the wall
-  double map_sigma_m = 0.0;    ///< by how much the map's walls are off; 0: what the map's kind suggests
+  double map_sigma_m = 0.0;    ///< by how much the map's walls are off; what the residuals tell is added
   double gate_m = 0.3;         ///< from a rough guess, beams that end further from every wall are left out
   double near_gate_m = 0.05;   ///< the same from a good one, unless the noise is larger
   double cut_sigma = 6.0;      ///< beams this many standard deviations from their wall know nothing

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "beaconless/geometry/pose2.hpp"
+#include "beaconless/map/wall_index.hpp"
+#include "beaconless/match/walls.hpp"
+
+namespace beaconless {
+
+/// How well all points lie on the map, where they were paired.
+struct WallPairing {
+  double on_map_ratio = 0.0;  ///< see MatchResult
+  double misfit = 1.0;
+};
+
+/// Pairs every beam with the wall that it hits from a pose; `scratch.beams` holds those that hit one.
+///
+/// In: ends of beams in the laser frame; beams that end further than `gate_m` beside a wall do not hit it. A
+/// beam that is within three standard deviations of the wall of the beam before it is on that wall, whatever
+/// else is there; any other is looked up. Cost: a look-up of a wall a beam at most.
+WallPairing pair_with_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls,
+                            const Pose2& map_from_laser, double gate_m, const WallsConfig& config,
+                            WallsScratch& scratch);
+
+}  // namespace beaconless
