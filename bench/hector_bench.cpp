@@ -28,7 +28,7 @@ struct Case {
   std::shared_ptr<const Drive> drive;
   std::shared_ptr<const OccupancyPyramid> map;
   HectorConfig config;
-  HectorLoop loop = fastest_hector_loop();
+  VectorLoop loop = fastest_vector_loop();
 };
 
 void match(benchmark::State& state, const Case& run) {
@@ -61,7 +61,7 @@ void match(benchmark::State& state, const Case& run) {
 void add(const std::shared_ptr<const Drive>& drive, const std::string& on, OccupancyPyramid map) {
   const Case all{drive, std::make_shared<const OccupancyPyramid>(std::move(map))};
   Case portable = all;
-  portable.loop = HectorLoop::portable;
+  portable.loop = VectorLoop::portable;
   Case early = all;
   early.config.stops_early = true;
   const struct {

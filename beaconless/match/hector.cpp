@@ -31,7 +31,7 @@ struct LevelMatch {
   const HectorPoints& points;
   const OccupancyLevel& level;
   const HectorConfig& config;
-  HectorLoop loop = HectorLoop::portable;
+  VectorLoop loop = VectorLoop::portable;
   double arm_m = std::max(points.arm_m, kShortestArm_m);
 
   HectorSums sums(const Pose2& pose) const { return sum_hector(points, level, pose, loop); }

@@ -32,7 +32,7 @@ void describe(Fields& fields, HectorConfig& config);
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct HectorScratch {
   HectorPoints points;
-  HectorLoop loop = fastest_hector_loop();
+  VectorLoop loop = fastest_vector_loop();
 };
 
 /// Fits the points of a scan onto a map of cells, from a guess nearby: Gauss-Newton on Σ (1 - M)², from the

@@ -92,10 +92,10 @@ std::optional<LoopInput> input_of(const HectorPoints& points, const OccupancyLev
 }
 
 template <bool kTells>
-LoopSums run(const LoopInput& in, [[maybe_unused]] HectorLoop loop) {
+LoopSums run(const LoopInput& in, [[maybe_unused]] VectorLoop loop) {
   LoopSums sums{};
 #ifdef HECTOR_HAS_AVX2
-  if (loop == HectorLoop::avx2) {
+  if (loop == VectorLoop::avx2) {
     eight_lanes::sum_lanes<kTells>(in, sums);
     return sums;
   }
@@ -127,17 +127,8 @@ void HectorPoints::load(std::span<const Eigen::Vector2d> points) {
   std::fill(y_m.begin() + static_cast<std::ptrdiff_t>(count), y_m.end(), kOutside_m);
 }
 
-HectorLoop fastest_hector_loop() {
-#ifdef HECTOR_HAS_AVX2
-  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return kHasAvx2 ? HectorLoop::avx2 : HectorLoop::portable;
-#else
-  return HectorLoop::portable;
-#endif
-}
-
 HectorSums sum_hector(const HectorPoints& points, const OccupancyLevel& level, const Pose2& grid_from_laser,
-                      HectorLoop loop) {
+                      VectorLoop loop) {
   const auto in = input_of(points, level, grid_from_laser, 0.0);
   if (!in) return {};
   const LoopSums sums = run<false>(*in, loop);
@@ -154,7 +145,7 @@ HectorSums sum_hector(const HectorPoints& points, const OccupancyLevel& level, c
 }
 
 HectorFit fit_hector(const HectorPoints& points, const OccupancyLevel& level, const Pose2& grid_from_laser,
-                     double least, HectorLoop loop) {
+                     double least, VectorLoop loop) {
   const auto in = input_of(points, level, grid_from_laser, least);
   if (!in) return {.misfit_sum = static_cast<double>(points.count)};
   const LoopSums sums = run<true>(*in, loop);

@@ -9,6 +9,7 @@
 
 #include "beaconless/geometry/pose2.hpp"
 #include "beaconless/map/occupancy_level.hpp"
+#include "beaconless/match/vector_loop.hpp"
 
 namespace beaconless {
 
@@ -42,15 +43,6 @@ struct HectorFit {
   double slope_sum = 0.0;   ///< Σ |J|²
 };
 
-/// Which code computes them. Both give the same but for rounding.
-enum class HectorLoop {
-  portable,  ///< on any processor
-  avx2,      ///< on x86 with AVX2 and FMA
-};
-
-/// The fastest that this processor knows.
-HectorLoop fastest_hector_loop();
-
 /// Sums over all points at a pose of the laser in the level's grid.
 ///
 /// In: a finite pose; a loop that this processor knows. Points outside count as where M is 0. Cost: one load
@@ -58,10 +50,10 @@ HectorLoop fastest_hector_loop();
 /// 2011, eqs. 4-13. Differs: hector_slam blends the differences in x by the share in x, and those in y by
 /// that in y (issue 16 there); that is the slope of M only beside walls along the rows.
 HectorSums sum_hector(const HectorPoints& points, const OccupancyLevel& level, const Pose2& grid_from_laser,
-                      HectorLoop loop);
+                      VectorLoop loop);
 
 /// The same way, for 0 <= least < 1.
 HectorFit fit_hector(const HectorPoints& points, const OccupancyLevel& level, const Pose2& grid_from_laser,
-                     double least, HectorLoop loop);
+                     double least, VectorLoop loop);
 
 }  // namespace beaconless

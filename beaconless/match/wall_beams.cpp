@@ -74,21 +74,12 @@ void WallBeams::fill_up() {
   }
 }
 
-WallLoop fastest_wall_loop() {
-#ifdef WALL_HAS_AVX2
-  static const bool kHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return kHasAvx2 ? WallLoop::avx2 : WallLoop::portable;
-#else
-  return WallLoop::portable;
-#endif
-}
-
-WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] WallLoop loop) {
+WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] VectorLoop loop) {
   const LoopInput in{step.x_m, step.y_m, std::cos(step.theta_rad), std::sin(step.theta_rad),
                      1.0 / (cut * cut)};
   LoopSums sums{};
 #ifdef WALL_HAS_AVX2
-  if (loop == WallLoop::avx2)
+  if (loop == VectorLoop::avx2)
     four_lanes::sum_lanes(beams, in, sums);
   else
 #endif

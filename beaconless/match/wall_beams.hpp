@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "beaconless/geometry/pose2.hpp"
+#include "beaconless/match/vector_loop.hpp"
 
 namespace beaconless {
 
@@ -47,20 +48,11 @@ struct WallSums {
   double arm_squares_m2 = 0.0;                         ///< Σ w of the squared distance from the laser
 };
 
-/// Which code computes them. Both give the same but for rounding.
-enum class WallLoop {
-  portable,  ///< on any processor
-  avx2,      ///< on x86 with AVX2 and FMA
-};
-
-/// The fastest that this processor knows.
-WallLoop fastest_wall_loop();
-
 /// Sums over all beams with the laser moved by `step` from where they were paired.
 ///
 /// In: Tukey's weights of z with an end at `cut` > 0; a loop that this processor knows. Cost: some 60
 /// operations a beam, two or four at once. Source: Censi, "On achievable accuracy for range-finder
 /// localization", ICRA 2007 (J); Huber, "Robust Statistics", 1981, 6.3 (the last sums).
-WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, WallLoop loop);
+WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, VectorLoop loop);
 
 }  // namespace beaconless

@@ -38,7 +38,7 @@ double arm_of(const WallSums& sums) {
   return std::sqrt(sums.arm_squares_m2 / std::max(sums.weight, 1e-9)) + 1e-3;
 }
 
-Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& config, WallLoop loop) {
+Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& config, VectorLoop loop) {
   Fit fit;
   double next_scale = std::max(1.0, first_scale);
   for (fit.iterations = 1; fit.iterations <= kSteps; ++fit.iterations) {
@@ -103,7 +103,7 @@ void describe(Fields& fields, WallsConfig& config) {
 
 MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls, const Pose2& guess,
                         double prior_m, const WallsConfig& config, WallsScratch& scratch) {
-  const WallLoop loop = fastest_wall_loop();
+  const VectorLoop loop = fastest_vector_loop();
   WallsConfig believed = config;
   double noise_m = std::hypot(config.sigma_m, config.map_sigma_m);
   bool is_map_blamed = false;

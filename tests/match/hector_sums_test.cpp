@@ -17,9 +17,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-std::vector<HectorLoop> loops() {
-  std::vector<HectorLoop> all{HectorLoop::portable};
-  if (fastest_hector_loop() != HectorLoop::portable) all.push_back(fastest_hector_loop());
+std::vector<VectorLoop> loops() {
+  std::vector<VectorLoop> all{VectorLoop::portable};
+  if (fastest_vector_loop() != VectorLoop::portable) all.push_back(fastest_vector_loop());
   return all;
 }
 
@@ -62,7 +62,7 @@ OccupancyLevel random_level(Rng& rng, double resolution_m, const Pose2& map_from
 
 TEST(HectorSums, AreThoseOfThePlainFormForAnyCellsPointsAndPoses) {
   Rng rng(1);
-  for (const HectorLoop loop : loops())
+  for (const VectorLoop loop : loops())
     for (int run = 0; run < 40; ++run) {
       const Pose2 map_from_grid{rng.uniform(-9.0, 9.0), rng.uniform(-9.0, 9.0), rng.uniform(-3.0, 3.0)};
       const double resolution_m = rng.uniform(0.02, 0.3);
@@ -117,7 +117,7 @@ TEST(HectorSums, PullDownhillOfTheSumOfSquaresBesideObliqueWalls) {
     const Pose2 there{s.pose.x_m + step.x(), s.pose.y_m + step.y(), s.pose.theta_rad + step.z()};
     return twin(s.points, s.level, there, 0.0).fit.misfit_sum * 0.05 * 0.05;
   };
-  for (const HectorLoop loop : loops()) {
+  for (const VectorLoop loop : loops()) {
     const HectorSums sums = sum_hector(loaded, s.level, s.pose, loop);
     for (const int axis : {0, 1, 2}) {
       const Eigen::Vector3d step = 1e-6 * Eigen::Vector3d::Unit(axis);
@@ -153,7 +153,7 @@ TEST(HectorSums, SwappedBlendsWouldBeNoticed) {
 TEST(HectorSums, AreTheSameWhereverTheGridIsCountedFrom) {
   // Kilometres from the origin of its cells a grid is as exact as beside it.
   Rng rng(5);
-  const auto sums_from = [](int x, int y, const HectorLoop loop) {
+  const auto sums_from = [](int x, int y, const VectorLoop loop) {
     Rng same(9);
     const OccupancyLevel level = random_level(same, 0.05, {}, {x, y});
     Points points(200);
@@ -162,7 +162,7 @@ TEST(HectorSums, AreTheSameWhereverTheGridIsCountedFrom) {
     loaded.load(points);
     return sum_hector(loaded, level, {0.05 * (x + 30.3), 0.05 * (y + 20.7), 0.3}, loop);
   };
-  for (const HectorLoop loop : loops()) {
+  for (const VectorLoop loop : loops()) {
     const HectorSums here = sums_from(0, 0, loop);
     const HectorSums there = sums_from(-200'000, 300'000, loop);
     EXPECT_EQ(here.near_count, there.near_count);
@@ -175,8 +175,8 @@ TEST(HectorSums, BothLoopsAgreeToRounding) {
   const Scene s;
   HectorPoints loaded;
   loaded.load(s.points);
-  const HectorSums portable = sum_hector(loaded, s.level, s.pose, HectorLoop::portable);
-  const HectorSums fastest = sum_hector(loaded, s.level, s.pose, fastest_hector_loop());
+  const HectorSums portable = sum_hector(loaded, s.level, s.pose, VectorLoop::portable);
+  const HectorSums fastest = sum_hector(loaded, s.level, s.pose, fastest_vector_loop());
   EXPECT_EQ(portable.near_count, fastest.near_count);
   EXPECT_LT((portable.hessian - fastest.hessian).norm(), 1e-5 * portable.hessian.norm());
   EXPECT_LT((portable.gradient - fastest.gradient).norm(), 1e-5 * portable.gradient.norm());
@@ -200,7 +200,7 @@ TEST(HectorSums, PointsThatNoMapHoldsAddNothing) {
   HectorPoints loaded;
   loaded.load(mixed);
   EXPECT_LT(loaded.count, mixed.size());
-  for (const HectorLoop loop : loops()) {
+  for (const VectorLoop loop : loops()) {
     const HectorSums alone = sum_hector(clean, s.level, s.pose, loop);
     const HectorSums among = sum_hector(loaded, s.level, s.pose, loop);
     EXPECT_EQ(alone.near_count, among.near_count);
@@ -219,7 +219,7 @@ TEST(HectorSums, OfNoPointsOrFarAwayAreNone) {
   EXPECT_EQ(none.count, 0U);
   HectorPoints loaded;
   loaded.load(s.points);
-  for (const HectorLoop loop : loops()) {
+  for (const VectorLoop loop : loops()) {
     EXPECT_EQ(sum_hector(none, s.level, s.pose, loop).hessian.norm(), 0.0);
     for (const double far_m : {1e3, 1e6, 1e12}) {
       const HectorSums far = sum_hector(loaded, s.level, {far_m, -far_m, 1.0}, loop);

@@ -162,9 +162,9 @@ TEST(Hector, BothLoopsEndInTheSamePlace) {
     const Pose2 truth{s.rng.uniform(1.0, 5.0), s.rng.uniform(1.0, 3.0), s.rng.uniform(-3.0, 3.0)};
     const auto points = s.see(truth, 0.01);
     const Pose2 guess = s.off(truth, 0.05, 0.03);
-    s.scratch.loop = HectorLoop::portable;
+    s.scratch.loop = VectorLoop::portable;
     const Pose2 portable = s.match(points, guess).map_from_laser;
-    s.scratch.loop = fastest_hector_loop();
+    s.scratch.loop = fastest_vector_loop();
     const Pose2 fastest = s.match(points, guess).map_from_laser;
     ASSERT_LT(distance_m(portable, fastest), 1e-6);
     ASSERT_LT(heading_difference_rad(portable, fastest), 1e-6);

@@ -87,19 +87,20 @@ TEST(WallBeams, SumsAreThoseOfThePlainLoop) {
   for (const int count : {1, 2, 3, 5, 64, 1081}) {
     const auto beams = beams_of(count, rng);
     const Pose2 step{0.004, -0.003, 0.002};
-    expect_same(sum_walls(loaded(beams), step, 6.0, WallLoop::portable), plain_sums(beams, step, 6.0), 1e-6);
+    expect_same(sum_walls(loaded(beams), step, 6.0, VectorLoop::portable), plain_sums(beams, step, 6.0),
+                1e-6);
   }
 }
 
 TEST(WallBeams, EveryLoopGivesTheSame) {
-  if (fastest_wall_loop() == WallLoop::portable)
+  if (fastest_vector_loop() == VectorLoop::portable)
     GTEST_SKIP() << "this processor knows the portable loop only";
   Rng rng(4);
   const auto beams = loaded(beams_of(1081, rng));
   for (const double turn : {0.0, 0.01, 3.0}) {
     const Pose2 step{0.01, 0.02, turn};
-    expect_same(sum_walls(beams, step, 5.0, WallLoop::avx2), sum_walls(beams, step, 5.0, WallLoop::portable),
-                1e-12);
+    expect_same(sum_walls(beams, step, 5.0, VectorLoop::avx2),
+                sum_walls(beams, step, 5.0, VectorLoop::portable), 1e-12);
   }
 }
 
@@ -111,8 +112,8 @@ TEST(WallBeams, KeepTheirRoomFromScanToScan) {
   beams.clear();
   for (const Beam& beam : few) beams.add(beam.end, beam.unit, beam.normal, beam.offset_m, beam.information);
   beams.fill_up();
-  expect_same(sum_walls(beams, {}, 6.0, fastest_wall_loop()),
-              sum_walls(loaded(few), {}, 6.0, fastest_wall_loop()), 1e-15);
+  expect_same(sum_walls(beams, {}, 6.0, fastest_vector_loop()),
+              sum_walls(loaded(few), {}, 6.0, fastest_vector_loop()), 1e-15);
 }
 
 }  // namespace
