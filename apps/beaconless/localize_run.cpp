@@ -19,8 +19,6 @@
 namespace beaconless::cli {
 namespace {
 
-constexpr double kNoticeableArm_m = 0.01;
-
 /// A file that holds no parameters at all is wrong data; a wrong parameter in it is a wrong word of the call.
 Result<Done> check_config_file(const std::string& path) {
   if (path.empty()) return Done{};
@@ -110,13 +108,13 @@ Result<Pose2> start_pose(const LocalizeWords& words, const io::Recording& record
   if (!words.start.empty()) return pose_from_words("--start", words.start);
   const auto poses = poses_of(words.start_from, recording, words.pose_topic, problems);
   if (!poses) return poses.error();
-  if (const auto& told = poses->base_from_laser; told && words.base_from_laser.empty() &&
-                                                 words.config.empty() &&
-                                                 std::hypot(told->x_m, told->y_m) > kNoticeableArm_m)
+  if (poses->tells_laser_apart() && words.base_from_laser.empty() && words.config.empty()) {
+    const Pose2& told = *poses->base_from_laser;
     problems.add(
         {words.recording, fmt::format("the log says that the laser sits at {:.3f},{:.3f},{:.1f} on the "
                                       "robot, but --base-from-laser is not given",
-                                      told->x_m, told->y_m, degrees(told->theta_rad))});
+                                      told.x_m, told.y_m, degrees(told.theta_rad))});
+  }
   if (auto pose = poses->at(first.index, first.scan.stamp())) return *pose;
   // A reference that begins a moment later than the scans still tells where they begin.
   if (!poses->trajectory.empty() &&

@@ -24,8 +24,6 @@
 namespace beaconless::cli {
 namespace {
 
-constexpr double kNoticeableArm_m = 1e-3;
-
 /// Defaults, then the file, then the options, then each --set.
 Result<HectorSlamConfig> config_of(const MapSlamWords& words) {
   SlamParameters parameters;
@@ -161,9 +159,8 @@ void tell(const Console& console, const MapSlamWords& words, const OccupancyGrid
 std::optional<Pose2> told_place(const Console& console, const io::Recording& recording) {
   ProblemLog unheard;
   const auto poses = poses_of("recorded", recording, "", unheard);
-  if (!poses || !poses->base_from_laser) return std::nullopt;
+  if (!poses || !poses->tells_laser_apart()) return std::nullopt;
   const Pose2 told = *poses->base_from_laser;
-  if (std::hypot(told.x_m, told.y_m) < kNoticeableArm_m) return std::nullopt;
   console.note(fmt::format("the log says that the laser sits at {:.3f},{:.3f},{:.1f} on the robot", told.x_m,
                            told.y_m, degrees(told.theta_rad)));
   return told;

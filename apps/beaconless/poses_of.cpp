@@ -2,6 +2,7 @@
 #include "poses_of.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "beaconless/core/suggest.hpp"
 #include "beaconless/io/tum.hpp"
@@ -72,6 +73,11 @@ Result<std::string> choose(const Sources& sources, const io::Recording& recordin
 }
 
 }  // namespace
+
+bool PosesOf::tells_laser_apart() const {
+  constexpr double kNoticeable_m = 0.01;
+  return base_from_laser && std::hypot(base_from_laser->x_m, base_from_laser->y_m) > kNoticeable_m;
+}
 
 std::optional<Pose2> PosesOf::at(std::size_t scan_index, Stamp stamp) const {
   if (scan_index < by_scan.size() && by_scan[scan_index]) return by_scan[scan_index];

@@ -21,6 +21,9 @@ struct PosesOf {
   std::vector<std::optional<Pose2>> by_scan;  ///< for each scan of the recording, where its own line says so
   std::optional<Pose2> base_from_laser;       ///< where the recording tells laser and robot apart
 
+  /// Whether it tells that the laser sits a centimetre or more beside the base.
+  bool tells_laser_apart() const;
+
   /// The pose at a scan: its own, else the trajectory's at its stamp.
   std::optional<Pose2> at(std::size_t scan_index, Stamp stamp) const;
 };

@@ -57,8 +57,7 @@ std::string on_the_exact_map(const Comparison& comparison) {
 
 std::string on_other_tapes(const Comparison& comparison, const TapeSpread* spread) {
   if (spread == nullptr) return "";
-  const bool is_position = comparison.table->quantity == Quantity::position;
-  const auto& means = is_position ? spread->mean_m : spread->mean_deg;
+  const auto& means = spread->means(comparison.table->quantity);
   const double share = TapeSpread::share_up_to(means, comparison.row->mean);
   return fmt::format(
       " On {} other tapes of the same care the mean is {} in the median, and at or below the printed one on "

@@ -166,7 +166,7 @@ LuckOfTheTape luck_of(const Reproduction& reproduction) {
   for (const Comparison& comparison : reproduction.comparisons) {
     const TapeSpread* spread = find(reproduction.tapes, comparison.table->scenario, comparison.row->method);
     if (spread == nullptr || comparison.on(MapKind::tape) == nullptr) continue;
-    const auto& means = comparison.table->quantity == Quantity::position ? spread->mean_m : spread->mean_deg;
+    const auto& means = spread->means(comparison.table->quantity);
     ++luck.compared;
     luck.at_or_below += comparison.is_at_or_below(MapKind::tape, Statistic::mean) ? 1U : 0U;
     luck.elsewhere += TapeSpread::share_up_to(means, comparison.row->mean);

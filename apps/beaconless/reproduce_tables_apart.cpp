@@ -53,7 +53,7 @@ report::Table tapes_table(std::span<const TapeSpread> spreads, std::span<const C
     const TapeSpread* spread = find(spreads, comparison.table->scenario, comparison.row->method);
     if (spread == nullptr || comparison.on(MapKind::tape) == nullptr) continue;
     const Quantity quantity = comparison.table->quantity;
-    const auto& means = quantity == Quantity::position ? spread->mean_m : spread->mean_deg;
+    const auto& means = spread->means(quantity);
     const auto at = [&](double share) { return TapeSpread::quantile(means, share); };
     table.rows.push_back(
         {fmt::format("{}, {}", comparison.table->number, comparison.row->method),

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reproduce_published.hpp"
 #include "reproduce_scenes.hpp"
 
 namespace beaconless::cli {
@@ -16,6 +17,10 @@ struct TapeSpread {
   std::string method;
   std::vector<double> mean_m;    ///< of the position, one a tape, ascending
   std::vector<double> mean_deg;  ///< of the heading, likewise
+
+  const std::vector<double>& means(Quantity quantity) const {
+    return quantity == Quantity::position ? mean_m : mean_deg;
+  }
 
   /// The share of the tapes on which the mean is at or below a value.
   static double share_up_to(std::span<const double> ascending, double value);
