@@ -154,6 +154,10 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
       ->check(CLI::IsMember({"first", "middle", "last"}))
       ->capture_default_str();
+  command
+      ->add_option("--sweep-time", words->scan.sweep_time_s,
+                   "From a sweep's first beam to its last [s], where the source does not tell or tells wrong")
+      ->check(not_from_zero_on, "NUMBER >= 0");
   command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
       ->check(not_from_zero_on, "NUMBER >= 0");
   command

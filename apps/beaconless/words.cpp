@@ -53,6 +53,7 @@ ScanGate ScanWords::gate() const {
   return {.stamp_is = stamp_is == "last"     ? StampIs::last_beam
                       : stamp_is == "middle" ? StampIs::middle_beam
                                              : StampIs::first_beam,
+          .sweep_time_s = sweep_time_s,
           .range_min_m = static_cast<float>(min_range_m),
           .range_max_m = static_cast<float>(max_range_m)};
 }

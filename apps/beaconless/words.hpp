@@ -33,6 +33,7 @@ struct ScanWords {
   std::string topic;
   std::string scans;
   std::string stamp_is = "first";
+  double sweep_time_s = 0.0;
   double min_range_m = 0.0;
   double max_range_m = 0.0;
 

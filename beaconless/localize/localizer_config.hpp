@@ -17,6 +17,7 @@
 #include "beaconless/match/walls.hpp"
 #include "beaconless/track/feature_tracker.hpp"
 #include "beaconless/track/motion_filter.hpp"
+#include "beaconless/track/odometry_track.hpp"
 
 namespace beaconless {
 
@@ -24,6 +25,7 @@ namespace beaconless {
 struct LocalizerConfig {
   std::string method = "icp-full";
   Pose2 base_from_laser;  ///< where the laser sits on the robot
+  bool deskew = true;     ///< see each beam from where the laser was, where the source tells beams' times
   WallsConfig walls;
   IcpConfig icp;
   PointFeaturesConfig features;   ///< how the feature methods find features …
@@ -35,6 +37,7 @@ struct LocalizerConfig {
   HectorConfig hector;
   LocalSearchConfig search;
   MotionConfig motion;
+  OdometryConfig odometry;
   HealthConfig health;
 };
 

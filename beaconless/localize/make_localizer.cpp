@@ -12,6 +12,7 @@
 #include "beaconless/localize/points_matcher.hpp"
 #include "beaconless/localize/tracking_localizer.hpp"
 #include "beaconless/localize/walls_matcher.hpp"
+#include "beaconless/match/grid_outlines.hpp"
 
 namespace beaconless {
 namespace {
@@ -173,6 +174,7 @@ void describe(Fields& fields, LocalizerConfig& config) {
          "the laser's place ahead of the base");
   fields("base_from_laser.y_m", config.base_from_laser.y_m, {-100.0, 100.0}, "the laser's place to the left");
   fields("base_from_laser.theta_rad", config.base_from_laser.theta_rad, {-7.0, 7.0}, "the laser's heading");
+  fields("deskew", config.deskew, "each beam is seen from where the laser was then, by the robot's motion");
   fields.section("walls", config.walls);
   fields.section("icp", config.icp);
   fields.section("feature_icp", config.feature_icp);
@@ -183,6 +185,7 @@ void describe(Fields& fields, LocalizerConfig& config) {
   fields.section("regions", config.regions);
   fields.section("search", config.search);
   fields.section("motion", config.motion);
+  fields.section("odometry", config.odometry);
   fields.section("health", config.health);
   fields.section("features", config.features);
 }
@@ -204,7 +207,9 @@ Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config,
   if (named == recipes().end()) return unknown_method(config.method);
   if (auto checked = check_config(config); !checked) return checked.error();
   const LocalizerConfig settled = for_map(config, map);
-  auto built = build_surface_map(map, settled.icp.max_pair_distance_m);
+  const auto* grid = std::get_if<OccupancyGrid>(&map);
+  const bool is_drawn = named->recipe.fitting == Fitting::walls && grid != nullptr;
+  auto built = build_surface_map(is_drawn ? Map(outlines_of(*grid)) : map, settled.icp.max_pair_distance_m);
   if (!built) return built.error();
   const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
   auto matcher = make_matcher(named->recipe, settled, map, surfaces);

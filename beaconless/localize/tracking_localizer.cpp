@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "beaconless/geometry/pose_covariance.hpp"
+#include "beaconless/match/sweep_twist.hpp"
+#include "beaconless/scan/deskew.hpp"
 
 namespace beaconless {
 namespace {
@@ -22,14 +24,13 @@ constexpr double kVague_m = 0.1;        // a prediction less certain than this i
 constexpr double kVague_rad = radians(5.0);  // … where the whole scan tells better
 constexpr std::size_t kChecks = 240;         // beams that check a pose: the share is then known to 3 %
 
-/// The error that the robot's own motion during a sweep leaves in a fit of the sweep as if it were taken at
-/// once: the fit is right for some moment of the sweep, half of it from the stamp on average.
-Eigen::Matrix3d sweep_covariance(const Pose2& map_from_base, const Twist2& twist_per_s, double sweep_time_s) {
-  const Twist2 half = (0.5 * sweep_time_s) * twist_per_s;
-  const Eigen::Vector2d moved = map_from_base.rotation() * Eigen::Vector2d(half.x_m, half.y_m);
-  const Eigen::Vector3d error(moved.x(), moved.y(), half.theta_rad);
-  return error * error.transpose();
-}
+constexpr double kSkew_m = 2e-4;  // what a twist misplaces by less than both is not worth a second fit
+constexpr double kSkew_rad = 1e-4;
+constexpr int kMostRepeats =
+    4;  // of a fit by another motion: one is the rule, more at a start in full motion
+constexpr double kUnsure_m =
+    1e-3;  // … and what it is uncertain by less than both need not be told by the sweep
+constexpr double kUnsure_rad = 1e-3;
 
 /// What a fit that is not to be trusted may be off by: a cell or two, or the whole window that is searched.
 const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
@@ -60,6 +61,7 @@ TrackingLocalizer::TrackingLocalizer(const LocalizerConfig& config, std::shared_
       matcher_(std::move(matcher)),
       laser_from_base_(config.base_from_laser.inverse()),
       motion_(config.motion),
+      odometry_(config.odometry),
       health_(config.health) {}
 
 void TrackingLocalizer::start_at(const Pose2& map_from_base) {
@@ -74,6 +76,8 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
 
 PoseEstimate TrackingLocalizer::update(const Event& event) {
   const Scan* scan = std::get_if<Scan>(&event);
+  if (const auto* odometry = std::get_if<Odometry>(&event))
+    odometry_.add(odometry->stamp, odometry->odom_from_base);
   if (scan == nullptr || !started_) {
     PoseEstimate estimate = last_;
     estimate.stamp = stamp_of(event);
@@ -82,13 +86,16 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
     return estimate;
   }
   // 1. Where the robot should be by its motion so far.
-  const Prediction prediction = motion_.predict(scan->stamp());
+  if (last_scan_)
+    if (const auto told = odometry_.between(*last_scan_, scan->stamp()))
+      motion_.hear(*told, seconds_between(*last_scan_, scan->stamp()));
+  Prediction prediction = motion_.predict(scan->stamp());
+  prediction.motion = motion_during(*scan, motion_);
+  last_scan_ = scan->stamp();
+  bent_.reset();
   const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
   // 2. What the laser saw.
-  load(*scan);
-  matcher_->observe(
-      *scan, points_, guess,
-      moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser));
+  observe(*scan, guess, prediction);
   // 3. Fit it to the map from there.
   MatchResult match = fit_from(guess);
   std::optional<MatchResult> whole_scan;
@@ -103,7 +110,9 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
     const StartPose there{guess};
     whole_scan = fit_whole_scan({&there, 1}, prediction);
   }
-  // 5. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
+  // 5. Where the fit tells another motion during the sweep, see the sweep by that, once.
+  if (reason_against(match, prediction).empty()) match = fit_by_new_motion(match, prediction, *scan);
+  // 6. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
   std::string_view doubt = reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
@@ -152,15 +161,79 @@ std::string_view TrackingLocalizer::reason_against_features(const MatchResult& m
   return {};
 }
 
-void TrackingLocalizer::load(const Scan& scan) {
-  points_.clear();
-  std::size_t far = 0;
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (!scan.is_hit(beam)) continue;
-    points_.push_back(scan.point(beam));
-    far += static_cast<double>(scan.ranges_m()[beam]) > kCovered_m ? 1 : 0;
-  }
+bool TrackingLocalizer::is_swept(const Scan& scan) const {
+  return config_.deskew && matcher_->judges_whole_scan() && scan.sweep_time_s() > 0.0;
+}
+
+void TrackingLocalizer::observe(const Scan& scan, const Pose2& map_from_laser, const Prediction& prediction) {
+  const Eigen::Vector3d twist = laser_from_base_.adjoint() * prediction.motion.per_s;
+  points_at_stamp(scan, is_swept(scan) ? Twist2{twist.x(), twist.y(), twist.z()} : Twist2{}, points_);
+  const auto far = std::count_if(points_.begin(), points_.end(), [](const Eigen::Vector2d& point) {
+    return point.squaredNorm() > kCovered_m * kCovered_m;
+  });
   is_covered_ = static_cast<double>(far) < kCoveredShare * static_cast<double>(scan.size());
+  matcher_->observe(
+      scan, points_, map_from_laser,
+      moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser));
+}
+
+ToldTwist TrackingLocalizer::motion_during(const Scan& scan, MotionFilter motion) const {
+  if (const auto told = odometry_.between(scan.stamp(), scan.stamp() + scan.sweep_time_s()))
+    motion.hear(*told, scan.sweep_time_s());
+  return motion.motion_at(scan.stamp());
+}
+
+std::optional<ToldTwist> TrackingLocalizer::told_by_sweep(const Scan& scan, const MatchResult& match,
+                                                          const ToldTwist& assumed) {
+  times_s_.clear();
+  for (std::size_t beam = 0; beam < scan.size(); ++beam)
+    if (scan.is_hit(beam)) times_s_.push_back(scan.beam_time_s(beam));
+  const SweepNoise noise{config_.icp.sigma_m, config_.icp.map_sigma_m, match.scale_m};
+  const auto bent = twist_of_sweep(points_, times_s_, *map_, match.map_from_laser, noise);
+  if (!bent) return std::nullopt;
+  const Eigen::Matrix3d to_base = config_.base_from_laser.adjoint();
+  return ToldTwist{assumed.per_s + to_base * bent->correction_per_s,
+                   to_base * bent->covariance * to_base.transpose()};
+}
+
+MatchResult TrackingLocalizer::fit_by_new_motion(const MatchResult& first, Prediction& prediction,
+                                                 const Scan& scan) {
+  MatchResult match = first;
+  const double half_s = 0.5 * scan.sweep_time_s();
+  for (int again = 0; again < kMostRepeats && is_swept(scan) && match.rank == 3; ++again) {
+    // 1. The motion, now that the pose is known, and by how the sweep is bent where that is uncertain.
+    MotionFilter after = motion_;
+    after.correct(scan.stamp(), match.map_from_laser * laser_from_base_,
+                  moved_covariance(match.covariance, match.map_from_laser, laser_from_base_));
+    ToldTwist motion = motion_during(scan, after);
+    if (half_s * std::sqrt(motion.covariance.topLeftCorner<2, 2>().trace()) > kUnsure_m ||
+        half_s * std::sqrt(motion.covariance(2, 2)) > kUnsure_rad) {
+      bent_ = told_by_sweep(scan, match, prediction.motion);
+      if (bent_ && after.hear(*bent_, scan.sweep_time_s())) motion = motion_during(scan, after);
+    }
+    // 2. Once more by it, if it is another one.
+    const Eigen::Vector3d skew = half_s * (motion.per_s - prediction.motion.per_s);
+    prediction.motion = motion;
+    if (skew.head<2>().norm() < kSkew_m && std::abs(skew.z()) < kSkew_rad) break;
+    observe(scan, match.map_from_laser, prediction);
+    const MatchResult next = fit_from(match.map_from_laser);
+    if (!next.usable()) break;
+    match = next;
+  }
+  return match;
+}
+
+/// What the motion during a sweep adds to the error of a pose: all of it where the sweep is fitted as if seen
+/// at once; by how much it is not known where it is fitted by that motion. The fit is right for some moment
+/// of the sweep, half of it from the stamp on average.
+Eigen::Matrix3d TrackingLocalizer::sweep_covariance(const PoseEstimate& estimate,
+                                                    const Prediction& prediction, const Scan& scan) const {
+  const double half_s = 0.5 * scan.sweep_time_s();
+  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
+  to_map.topLeftCorner<2, 2>() = estimate.map_from_base.rotation();
+  if (is_swept(scan)) return half_s * half_s * to_map * prediction.motion.covariance * to_map.transpose();
+  const Eigen::Vector3d error = to_map * (half_s * prediction.motion.per_s);
+  return error * error.transpose();
 }
 
 MatchResult TrackingLocalizer::fit_from(const Pose2& guess) {
@@ -247,6 +320,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   estimate.reason = reason_of(estimate.status, was_lost);
   const bool is_lost = was_lost || estimate.status == Status::lost;
   if (estimate.status != Status::ok) estimate.covariance += is_lost ? kLostCovariance : kWeakCovariance;
+  const Eigen::Matrix3d swept = sweep_covariance(estimate, prediction, scan);
   // 3. What rests on the prediction, wholly or along some direction, is degraded and tells no velocity.
   const bool is_open = match.rank < 3;
   const std::string_view caveat = is_open ? kOpenDirection : reservation;
@@ -255,16 +329,17 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
     estimate.status = Status::degraded;
     estimate.reason = caveat;
   }
-  estimate.covariance =
-      symmetric(estimate.covariance +
-                sweep_covariance(estimate.map_from_base, prediction.twist_per_s, scan.sweep_time_s()));
+  // A wrong motion moves this pose and the next one alike, which the filter compares.
+  const Eigen::Matrix3d compared = is_swept(scan) ? estimate.covariance : estimate.covariance + swept;
+  estimate.covariance = symmetric(estimate.covariance + swept);
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
   // 4. What carries over to the next scan.
   if (caveat.empty())
-    motion_.correct(scan.stamp(), estimate.map_from_base, estimate.covariance);
+    motion_.correct(scan.stamp(), estimate.map_from_base, compared);
   else
-    motion_.hold(scan.stamp(), estimate.map_from_base, estimate.covariance);
+    motion_.hold(scan.stamp(), estimate.map_from_base, compared);
+  if (bent_) motion_.hear(*bent_, scan.sweep_time_s());
   if (health_.lost()) matcher_->forget();
   matcher_->settle(match);
   return estimate;

@@ -12,18 +12,20 @@
 #include "beaconless/localize/scan_matcher.hpp"
 #include "beaconless/map/surface_map.hpp"
 #include "beaconless/match/map_fit.hpp"
+#include "beaconless/track/odometry_track.hpp"
 
 namespace beaconless {
 
 /// Follows a robot from scan to scan: predicts, lets a ScanMatcher fit the scan, and judges what came of it.
 ///
 /// Every method by name is this class with a matcher of its own. Source: dissertation 3.2 and 3.3; prediction
-/// from the last two poses. Differs: a sweep is fitted as if taken at once; what the robot's motion during it
-/// adds is put into the covariance. A fit that explains unusually little of the scan is tried again from the
-/// best poses around the prediction (search_around), because a robot that turns by 20° between two scans is
-/// outside the basin of any of the matchers; where a matcher of features gets nowhere from those either, the
-/// whole scan stands in for it and the status is degraded. How much a fit explains is told by the whole scan,
-/// whatever part of it the matcher used.
+/// from the last poses. Differs: points are fitted as they would be seen from where the laser was at the
+/// stamp, by the twist so far, and once more where the fit tells another twist; features are taken from the
+/// sweep as if it were seen at once, and what the motion adds is put into the covariance. A fit that explains
+/// unusually little of the scan is tried again from the best poses around the prediction (search_around),
+/// because a robot that turns by 20° between two scans is outside the basin of any of the matchers; where a
+/// matcher of features gets nowhere from those either, the whole scan stands in for it and the status is
+/// degraded. How much a fit explains is told by the whole scan, whatever part of it the matcher used.
 class TrackingLocalizer final : public Localizer {
  public:
   TrackingLocalizer(const LocalizerConfig& config, std::shared_ptr<const SurfaceMap> map,
@@ -33,7 +35,14 @@ class TrackingLocalizer final : public Localizer {
   PoseEstimate update(const Event& event) override;
 
  private:
-  void load(const Scan& scan);
+  void observe(const Scan& scan, const Pose2& map_from_laser, const Prediction& prediction);
+  MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
+  bool is_swept(const Scan& scan) const;
+  ToldTwist motion_during(const Scan& scan, MotionFilter motion) const;
+  std::optional<ToldTwist> told_by_sweep(const Scan& scan, const MatchResult& match,
+                                         const ToldTwist& assumed);
+  Eigen::Matrix3d sweep_covariance(const PoseEstimate& estimate, const Prediction& prediction,
+                                   const Scan& scan) const;
   MatchResult fit_from(const Pose2& guess);
   MapFit fit_at(const Prediction& prediction) const;
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
@@ -56,9 +65,13 @@ class TrackingLocalizer final : public Localizer {
   std::unique_ptr<ScanMatcher> matcher_;
   Pose2 laser_from_base_;
   MotionFilter motion_;
+  OdometryTrack odometry_;
+  std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
+  std::optional<Stamp> last_scan_;
   Health health_;
   IcpScratch scratch_;
-  std::vector<Eigen::Vector2d> points_;  // laser frame
+  std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
+  std::vector<double> times_s_;          // of the points, after the stamp
   PoseEstimate last_;
   bool started_ = false;
   bool first_scan_ = true;

@@ -35,8 +35,10 @@ std::optional<Error> refuse(const RawScan& raw) {
 }
 
 /// Seconds from one beam to the next; 0 where the source tells none that a scanner could have.
-double beam_step_s(const RawScan& raw) {
-  const auto step_s = static_cast<double>(raw.time_increment_s);
+double beam_step_s(const RawScan& raw, const ScanGate& gate) {
+  const double gaps = static_cast<double>(raw.ranges_m.size()) - 1.0;
+  const double step_s = gate.sweep_time_s > 0.0 && gaps > 0.0 ? gate.sweep_time_s / gaps
+                                                              : static_cast<double>(raw.time_increment_s);
   const double sweep_s = step_s * static_cast<double>(raw.ranges_m.size());
   return step_s > 0.0 && sweep_s < kLongestSweep_s ? step_s : 0.0;
 }
@@ -76,7 +78,7 @@ Result<Scan> Scan::make(RawScan raw, const ScanGate& gate) {
                      std::to_string(scan.range_max_m_) + " m",
                  "no beam could be used"};
 
-  const double step_s = beam_step_s(raw);
+  const double step_s = beam_step_s(raw, gate);
   const double sweep_s = step_s * static_cast<double>(raw.ranges_m.size() - 1);
   const double late_s = gate.stamp_is == StampIs::first_beam  ? 0.0
                         : gate.stamp_is == StampIs::last_beam ? sweep_s

@@ -30,6 +30,8 @@ enum class StampIs { first_beam, middle_beam, last_beam };
 /// What Scan::make may assume.
 struct ScanGate {
   StampIs stamp_is = StampIs::first_beam;
+  double sweep_time_s =
+      0.0;  ///< from the first beam to the last, against what the source tells; 0: believe it
   float range_min_m = 0.0F;  ///< raises the sensor's own lower limit; 0: leave it
   float range_max_m = 0.0F;  ///< lowers the sensor's own upper limit; 0: leave it
 };
@@ -45,7 +47,7 @@ class Scan {
   /// everything, intensities of another length. Cost: one sine and cosine per beam. Source:
   /// sensor_msgs/LaserScan, REP 117. Differs: a range equal to range_max_m counts as no return, as many
   /// drivers use it so, and so does one beyond 100 km where no limit is told. A time per beam that is
-  /// negative, not finite or makes a sweep of over a minute counts as not told.
+  /// negative, not finite or makes a sweep of over a minute counts as not told, and so does such a gate's.
   static Result<Scan> make(RawScan raw, const ScanGate& gate = {});
 
   static constexpr std::size_t kMaxBeams = 1'000'000;

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/track/motion_filter.hpp"
 
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "beaconless/geometry/pose_covariance.hpp"
+
 namespace beaconless {
 namespace {
 
 constexpr double kNominalStep_s = 0.1;  // assumed between scans whose stamps do not tell
-constexpr double kUnknownSpeed_mps = 1.0;
-constexpr double kUnknownTurn_radps = 1.0;
+const ToldTwist kUnknownMotion{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};  // 1 m/s, 1 rad/s
+
+const Eigen::Matrix3d kTiny = 1e-12 * Eigen::Matrix3d::Identity();  // so that nothing is divided by zero
+constexpr double kFarOff = 25.0;                                    // squared standard deviations
+constexpr double kCalming = 0.7;  // of what the motion changed by lately, from scan to scan
+constexpr double kCalm = 3e-4;    // of the squared change that is possible: steady motion
 
 double square(double value) { return value * value; }
 
-/// How far a value is moved towards a measurement of it.
-double gain(double variance, double noise_variance) { return variance / (variance + noise_variance + 1e-12); }
+Twist2 twist_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
@@ -41,18 +51,44 @@ double MotionFilter::elapsed_s(Stamp stamp) const {
   return usual_step_s_ > 0.0 ? usual_step_s_ : kNominalStep_s;
 }
 
+Eigen::Vector3d MotionFilter::possible_change(double elapsed_s) const {
+  const double move = square(config_.acceleration_mps2 * elapsed_s);
+  return {move, move, square(config_.turn_acceleration_radps2 * elapsed_s)};
+}
+
+Eigen::Matrix3d MotionFilter::expected_change(double elapsed_s) const {
+  return possible_change(elapsed_s).cwiseProduct(lately_).asDiagonal();
+}
+
+void MotionFilter::note_change(const ToldTwist& told, double elapsed_s) {
+  const Eigen::Vector3d change =
+      (told.per_s - motion_.per_s).cwiseAbs2() - told.covariance.diagonal() - motion_.covariance.diagonal();
+  const Eigen::Vector3d seen = change.cwiseQuotient(possible_change(elapsed_s).cwiseMax(1e-12));
+  const double move = std::max(seen.x(), seen.y());
+  lately_ =
+      (kCalming * lately_).cwiseMax(Eigen::Vector3d(move, move, seen.z())).cwiseMax(kCalm).cwiseMin(1.0);
+}
+
+ToldTwist MotionFilter::motion_at(Stamp stamp) const {
+  if (!stamped_) return kUnknownMotion;
+  const double dt = elapsed_s(stamp);
+  ToldTwist motion = motion_;
+  motion.covariance += expected_change(dt);
+  if (dt > config_.max_gap_s) motion.per_s.setZero();
+  return motion;
+}
+
 Prediction MotionFilter::predict(Stamp stamp) const {
-  Prediction prediction{last_, covariance_, {}};
+  Prediction prediction{last_, covariance_, motion_at(stamp)};
   if (!stamped_) return prediction;
   const double dt = elapsed_s(stamp);
-  if (dt <= config_.max_gap_s) {
-    prediction.twist_per_s = twist_per_s_;
-    prediction.map_from_base = last_ * Pose2::exp(dt * twist_per_s_);
-  }
-  // The velocity may be wrong, and may have changed since.
-  const double move_m2 = dt * dt * (speed_variance_ + square(config_.acceleration_mps2 * dt));
-  const double turn_rad2 = dt * dt * (turn_variance_ + square(config_.turn_acceleration_radps2 * dt));
-  prediction.covariance += Eigen::Vector3d(move_m2, move_m2, turn_rad2).asDiagonal();
+  prediction.map_from_base = last_ * Pose2::exp(twist_of(dt * prediction.motion.per_s));
+  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
+  to_map.topLeftCorner<2, 2>() = last_.rotation();
+  // A robot that has kept its speed so far may still change it now.
+  Eigen::Matrix3d motion = motion_.covariance;
+  motion += possible_change(dt).asDiagonal();
+  prediction.covariance += dt * dt * to_map * motion * to_map.transpose();
   return prediction;
 }
 
@@ -60,29 +96,49 @@ void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen:
   const bool is_first = !stamped_;
   const double dt = is_first ? 0.0 : elapsed_s(stamp);
   const Pose2 before = last_;
-  const Eigen::Matrix3d covariance_before = covariance_;
-  hold(stamp, map_from_base, covariance);
-  if (is_first) return;
-  const Twist2 told = (1.0 / dt) * (before.inverse() * map_from_base).log();
-  const Eigen::Matrix3d noise = (covariance_before + covariance) / (dt * dt);
-  const double move_gain = gain(speed_variance_, 0.5 * noise.topLeftCorner<2, 2>().trace());
-  const double turn_gain = gain(turn_variance_, noise(2, 2));
-  twist_per_s_.x_m += move_gain * (told.x_m - twist_per_s_.x_m);
-  twist_per_s_.y_m += move_gain * (told.y_m - twist_per_s_.y_m);
-  twist_per_s_.theta_rad += turn_gain * (told.theta_rad - twist_per_s_.theta_rad);
-  speed_variance_ *= 1.0 - move_gain;
-  turn_variance_ *= 1.0 - turn_gain;
+  Eigen::Matrix3d to_base = Eigen::Matrix3d::Identity();
+  to_base.topLeftCorner<2, 2>() = map_from_base.rotation().transpose();
+  const Eigen::Matrix3d both = to_base * (covariance_ + covariance) * to_base.transpose();
+  if (is_first) return hold(stamp, map_from_base, covariance);
+  const ToldTwist told{(before.inverse() * map_from_base).log().vector() / dt, both / (dt * dt)};
+  note_change(told, dt);
+  set(stamp, map_from_base, covariance);
+  take(told);
+}
+
+bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {
+  // What the poses told is the velocity in the middle of the last step.
+  const double since_s = 0.5 * (usual_step_s_ + lasting_s);
+  const Eigen::Vector3d off = told.per_s - motion_.per_s;
+  Eigen::Matrix3d possible = motion_.covariance + told.covariance + kTiny;
+  possible += possible_change(since_s).asDiagonal();
+  if (!(off.dot(possible.ldlt().solve(off)) < kFarOff)) return false;
+  note_change(told, since_s);
+  motion_.covariance += expected_change(since_s);
+  take(told);
+  return true;
+}
+
+void MotionFilter::take(const ToldTwist& told) {
+  const Eigen::Matrix3d& before = motion_.covariance;
+  const Eigen::Matrix3d all = before + told.covariance + kTiny;
+  const Eigen::Matrix3d gain = before * all.inverse();
+  motion_.per_s += gain * (told.per_s - motion_.per_s);
+  motion_.covariance = symmetric(before - gain * before);
 }
 
 void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
+  lately_.setOnes();
+  set(stamp, map_from_base, covariance);
+}
+
+void MotionFilter::set(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
   if (stamped_) {
     const double dt = elapsed_s(stamp);
-    speed_variance_ += square(config_.acceleration_mps2 * dt);
-    turn_variance_ += square(config_.turn_acceleration_radps2 * dt);
+    motion_.covariance += expected_change(dt);
     usual_step_s_ = dt;
   } else {
-    speed_variance_ = square(kUnknownSpeed_mps);
-    turn_variance_ = square(kUnknownTurn_radps);
+    motion_ = kUnknownMotion;
   }
   last_ = map_from_base;
   covariance_ = covariance;

@@ -20,20 +20,25 @@ struct MotionConfig {
 
 void describe(Fields& fields, MotionConfig& config);
 
+/// A velocity in the base frame, and how sure it is.
+struct ToldTwist {
+  Eigen::Vector3d per_s = Eigen::Vector3d::Zero();  ///< m/s, m/s, rad/s
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
 /// Where the robot should be now, and how sure that is.
 struct Prediction {
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Twist2 twist_per_s;  ///< base frame
+  ToldTwist motion;  ///< from now on
 };
 
 /// Carries the motion of the last poses on to the next scan: constant velocity, no odometry needed.
 ///
 /// Every new pose tells a velocity, which is believed by its own noise against what accelerations allow: two
 /// scans half a millisecond apart say nothing about speed, two scans half a second apart say it all. Source:
-/// dissertation 4.4 works without wheels; Kalman filter of a velocity that walks randomly, one gain for
-/// translation and one for rotation.
-/// Differs: where stamps stand still or run backwards the usual interval is assumed.
+/// dissertation 4.4 works without wheels; Kalman filter of a velocity that walks randomly, by as much as it
+/// changed of late. Differs: where stamps stand still or run backwards the usual interval is assumed.
 class MotionFilter {
  public:
   explicit MotionFilter(const MotionConfig& config = {}) : config_(config) {}
@@ -42,8 +47,17 @@ class MotionFilter {
 
   Prediction predict(Stamp stamp) const;
 
+  /// The motion from `stamp` on, as far as is known of it. What has happened since the last pose is in its
+  /// variance.
+  ToldTwist motion_at(Stamp stamp) const;
+
   /// Tells the filter where the robot was at `stamp`, and how sure that is.
   void correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
+
+  /// Tells it of a velocity that was measured otherwise, as the mean of `lasting_s` from the last pose on.
+  /// Not heard, and false, where it is far from what is possible: a slipping wheel, a jump of somebody's
+  /// estimate.
+  bool hear(const ToldTwist& told, double lasting_s);
 
   /// Tells it of a pose that rests on its own prediction, wholly or along some direction: the velocity is
   /// believed as before and less, since nothing new was heard of it.
@@ -55,12 +69,17 @@ class MotionFilter {
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Stamp stamp_;
   bool stamped_ = false;
-  double usual_step_s_ = 0.0;    // 0: no two poses yet
-  Twist2 twist_per_s_;           // base frame
-  double speed_variance_ = 0.0;  // of each of its translations, m²/s²
-  double turn_variance_ = 0.0;   // of its rotation, rad²/s²
+  double usual_step_s_ = 0.0;  // 0: no two poses yet
+  ToldTwist motion_;           // at the last pose
+
+  Eigen::Vector3d lately_ = Eigen::Vector3d::Ones();  // squared change of motion, as a share of what may be
 
   double elapsed_s(Stamp stamp) const;
+  Eigen::Vector3d possible_change(double elapsed_s) const;
+  Eigen::Matrix3d expected_change(double elapsed_s) const;
+  void note_change(const ToldTwist& told, double elapsed_s);
+  void set(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
+  void take(const ToldTwist& told);
 };
 
 }  // namespace beaconless

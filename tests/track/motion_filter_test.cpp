@@ -25,7 +25,7 @@ TEST(MotionFilter, CarriesAConstantTwistOnWhateverTheInterval) {
     const Pose2 truth = Pose2{1, 2, 0.5} * Pose2::exp(t * kTwistPerS);
     EXPECT_LT(distance_m(prediction.map_from_base, truth), 1e-9) << t;
     EXPECT_LT(heading_difference_rad(prediction.map_from_base, truth), 1e-9);
-    EXPECT_NEAR(prediction.twist_per_s.x_m, kTwistPerS.x_m, 1e-9);
+    EXPECT_NEAR(prediction.motion.per_s.x(), kTwistPerS.x_m, 1e-9);
   }
 }
 
