@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <utility>
+
+#include "beaconless/map/wall_tiles.hpp"
 
 namespace beaconless {
 namespace {
 
-/// Calls visit(column, row, distance from the cell's center to the wall) for every cell within `reach_m` of
-/// it.
+/// Calls visit(column, row) for every cell whose center is within `reach_m` of a wall.
 template <class Visit>
 void for_cells_near(const Segment2& wall, double reach_m, const Eigen::Vector2d& low, double cell_m,
                     int columns, int rows, Visit visit) {
@@ -36,13 +37,12 @@ void for_cells_near(const Segment2& wall, double reach_m, const Eigen::Vector2d&
     const int x1 = std::min(columns - 1, column_of(std::max(xa, xb) + reach_m));
     for (int x = x0; x <= x1; ++x) {
       const Eigen::Vector2d center = low + cell_m * Eigen::Vector2d(x + 0.5, y + 0.5);
-      const double distance = wall.distance_m(center);
-      if (distance <= reach_m) visit(x, y, distance);
+      if (wall.distance_m(center) <= reach_m) visit(x, y);
     }
   }
 }
 
-constexpr double kMaxVisits = 5e7;  // of cells by walls, so that no plan takes for ever
+constexpr double kMaxVisits = 4e7;  // of tiles by walls, so that no plan takes for ever
 
 double area_of_reach(const std::vector<Segment2>& walls, double reach_m) {
   double area_m2 = 0.0;
@@ -69,6 +69,7 @@ std::vector<Segment2> distinct(std::vector<Segment2> walls) {
 WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
     : reach_m_(reach_m), cell_m_(cell_m) {
   const std::vector<Segment2> segments = distinct(plan.segments());
+  walls_.reserve(segments.size());
   for (const Segment2& segment : segments)
     walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m()});
   if (walls_.empty()) return;
@@ -76,40 +77,53 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   const FloorPlan::Bounds bounds = plan.bounds();
   low_ = bounds.low.array() - reach_m_;
   const Eigen::Vector2d extent = bounds.high.array() + reach_m_ - low_.array();
-  cell_m_ = std::max({cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells),
-                      std::sqrt(area_of_reach(segments, reach_m_) / kMaxVisits)});
+  const double tile_m = std::max({kTile * cell_m_, std::sqrt(extent.x() * extent.y() / kMaxTiles),
+                                  std::sqrt(area_of_reach(segments, reach_m_) / kMaxVisits)});
+  cell_m_ = tile_m / kTile;
   cells_per_m_ = 1.0 / cell_m_;
-  columns_ = static_cast<int>(std::ceil(extent.x() / cell_m_));
-  rows_ = static_cast<int>(std::ceil(extent.y() / cell_m_));
-  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  const auto cell_of = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
-  };
+  const auto tile_columns = static_cast<int>(std::ceil(extent.x() / tile_m));
+  const auto tile_rows = static_cast<int>(std::ceil(extent.y() / tile_m));
+  tile_columns_ = static_cast<std::size_t>(tile_columns);
+  columns_ = static_cast<int>(kTile) * tile_columns;
+  rows_ = static_cast<int>(kTile) * tile_rows;
 
-  // Any point of a cell is within half a diagonal of its center, so a wall can be nearest to it only when it
-  // is within a whole diagonal of being nearest to the center.
-  const double diagonal = cell_m_ * std::sqrt(2.0);
-  const double reach = reach_m_ + 0.5 * diagonal;
-  std::vector<float> nearest(cells, std::numeric_limits<float>::infinity());
-  for (const Segment2& segment : segments)
-    for_cells_near(segment, reach, low_, cell_m_, columns_, rows_, [&](int x, int y, double distance) {
-      nearest[cell_of(x, y)] = std::min(nearest[cell_of(x, y)], static_cast<float>(distance));
-    });
-  const auto is_candidate = [&](std::size_t cell, double distance) {
-    return distance <= static_cast<double>(nearest[cell]) + diagonal + 1e-5;
+  // 1. The walls within reach of each tile, one tile after the other.
+  const std::size_t tile_count = tile_columns_ * static_cast<std::size_t>(tile_rows);
+  const double reach = reach_m_ + 0.5 * std::numbers::sqrt2 * tile_m;
+  const auto visit_all = [&](auto visit) {
+    for (std::uint32_t i = 0; i < segments.size(); ++i)
+      for_cells_near(segments[i], reach, low_, tile_m, tile_columns, tile_rows, [&](int x, int y) {
+        visit(static_cast<std::size_t>(y) * tile_columns_ + static_cast<std::size_t>(x), i);
+      });
   };
-  first_.assign(cells + 1, 0);
-  for (const Segment2& segment : segments)
-    for_cells_near(segment, reach, low_, cell_m_, columns_, rows_, [&](int x, int y, double distance) {
-      if (is_candidate(cell_of(x, y), distance)) ++first_[cell_of(x, y) + 1];
-    });
-  for (std::size_t cell = 0; cell < cells; ++cell) first_[cell + 1] += first_[cell];
-  candidates_.resize(first_[cells]);
-  std::vector<std::uint32_t> filled(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < segments.size(); ++i)
-    for_cells_near(segments[i], reach, low_, cell_m_, columns_, rows_, [&](int x, int y, double distance) {
-      if (is_candidate(cell_of(x, y), distance)) candidates_[filled[cell_of(x, y)]++] = i;
-    });
+  std::vector<std::uint32_t> ends(tile_count + 1, 0);
+  visit_all([&](std::size_t tile, std::uint32_t /*wall*/) { ++ends[tile + 1]; });
+  for (std::size_t tile = 0; tile < tile_count; ++tile) ends[tile + 1] += ends[tile];
+  std::vector<std::uint32_t> within_reach(ends.back());
+  // While a tile is filled, its entry is where the next wall goes: in the end where the next tile begins.
+  visit_all([&](std::size_t tile, std::uint32_t wall) { within_reach[ends[tile]++] = wall; });
+
+  // 2. Of those, the ones that can be nearest somewhere in each cell.
+  WallTiles divided(walls_, reach_m_, cell_m_);
+  tiles_.assign(tile_count, 0);
+  std::uint32_t begin = 0;
+  for (std::size_t tile = 0; tile < tile_count; ++tile) {
+    const std::span<const std::uint32_t> here(within_reach.data() + begin, within_reach.data() + ends[tile]);
+    begin = ends[tile];
+    if (here.empty()) continue;
+    const Eigen::Vector2d place(static_cast<double>(tile % tile_columns_) + 0.5,
+                                static_cast<double>(tile / tile_columns_) + 0.5);
+    tiles_[tile] = divided.add(low_ + tile_m * place, here);
+  }
+  cells_ = std::move(divided.cells);
+  lists_ = std::move(divided.lists);
+  cells_.shrink_to_fit();
+  lists_.shrink_to_fit();
+}
+
+std::size_t WallIndex::memory_bytes() const {
+  return walls_.capacity() * sizeof(Wall) +
+         (tiles_.capacity() + cells_.capacity() + lists_.capacity()) * sizeof(std::uint32_t);
 }
 
 std::optional<SurfacePoint> WallIndex::nearest(const Eigen::Vector2d& point) const {
