@@ -53,19 +53,6 @@ void WallBeams::reserve(std::size_t beams) {
   for (auto* column : {&x_m, &y_m, &ux, &uy, &nx, &ny, &offset_m, &information}) column->resize(room);
 }
 
-void WallBeams::add(const Eigen::Vector2d& end, const Eigen::Vector2d& direction,
-                    const Eigen::Vector2d& normal, double offset, double known) {
-  x_m[count] = end.x();
-  y_m[count] = end.y();
-  ux[count] = direction.x();
-  uy[count] = direction.y();
-  nx[count] = normal.x();
-  ny[count] = normal.y();
-  offset_m[count] = offset;
-  information[count] = known;
-  ++count;
-}
-
 void WallBeams::fill_up() {
   const std::size_t all = (count + kLanes - 1) / kLanes * kLanes;
   for (std::size_t i = count; i < all; ++i) {
