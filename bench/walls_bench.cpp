@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // update() of the method walls, scan by scan, in rooms, in a warehouse and on a site of a thousand of them;
-// and the index of their walls.
+// the index of their walls; many robots at once.
 #include <memory>
 
 #include <benchmark/benchmark.h>
 
+#include "beaconless/core/rng.hpp"
 #include "beaconless/localize/make_localizer.hpp"
 #include "beaconless/map/wall_index.hpp"
+#include "beaconless/match/walls_batch.hpp"
 
 #include "bench/latencies.hpp"
 #include "bench/vector_pace.hpp"
@@ -17,6 +19,8 @@ namespace {
 
 using namespace beaconless;
 using bench::SharedDrive;
+
+constexpr int kHallsOfAMillionWalls = 32;  // along each side of a site
 
 /// The whole drive after its first scan, which searches, from its true start pose.
 void track(benchmark::State& state, const SharedDrive& drive, const std::shared_ptr<const Map>& map) {
@@ -41,10 +45,10 @@ void track(benchmark::State& state, const SharedDrive& drive, const std::shared_
   state.counters["ok_share"] = static_cast<double>(ok) / static_cast<double>(all);
 }
 
-/// The index of so many walls at least, and the memory that it takes.
+/// The index of the walls of a room (no hall), or of so many halls along each side.
 void build_wall_index(benchmark::State& state) {
-  const auto wanted = static_cast<std::size_t>(state.range(0));
-  const FloorPlan plan = wanted < 100 ? bench::furnished_room_drive().plan : bench::warehouses(wanted);
+  const auto halls = static_cast<int>(state.range(0));
+  const FloorPlan plan = halls == 0 ? bench::furnished_room_drive().plan : bench::warehouses(halls);
   double walls = 0.0;
   double megabytes = 0.0;
   for (auto _ : state) {
@@ -54,6 +58,46 @@ void build_wall_index(benchmark::State& state) {
   }
   state.counters["walls"] = walls;
   state.counters["index_MB"] = megabytes;
+}
+
+/// A thousand robots with a scan each, all in one hall or each in a hall of its own, from guesses as they are
+/// in steady tracking.
+void match_a_thousand(benchmark::State& state) {
+  constexpr std::size_t kRobots = 1000;
+  constexpr double kPrior_m = 0.015;
+  constexpr double kPeriod_us = 40'000.0;  // of scans at 25 Hz
+  const auto halls = static_cast<int>(state.range(0));
+  const bench::Drive drive = bench::warehouse_drive();
+  const WallIndex index(bench::warehouses(halls));
+  std::vector<std::vector<Eigen::Vector2d>> scans;
+  std::vector<WallsTask> tasks;
+  std::vector<Pose2> truth;
+  Rng rng(8);
+  for (std::size_t robot = 0; robot < kRobots; ++robot) {
+    const std::size_t i = robot * drive.scans.size() / kRobots;
+    const auto hall = static_cast<int>(robot) % (halls * halls);
+    const Eigen::Vector2d at = bench::hall_at(halls, hall % halls, hall / halls);
+    const Pose2 there = drive.map_from_laser(i);
+    truth.push_back({there.x_m + at.x(), there.y_m + at.y(), there.theta_rad});
+    scans.push_back(bench::points_of(drive.scan(i)));
+    const Pose2 off{rng.normal(0.002), rng.normal(0.002), rng.normal(0.0005)};
+    tasks.push_back({scans.back(), truth.back() * off, kPrior_m});
+  }
+  WallsScratch scratch;
+  std::vector<MatchResult> results(kRobots);
+  bench::Latencies latencies;
+  for (auto _ : state) {
+    latencies.measure([&] {
+      match_walls_all(tasks, index, {}, scratch, results);
+      return 0;
+    });
+  }
+  latencies.report(state);
+  std::int64_t found = 0;
+  for (std::size_t robot = 0; robot < kRobots; ++robot)
+    found += distance_m(results[robot].map_from_laser, truth[robot]) < 0.01 ? 1 : 0;
+  state.counters["budget_share"] = state.counters["p50_us"] / kPeriod_us;
+  state.counters["found_share"] = static_cast<double>(found) / static_cast<double>(kRobots);
 }
 
 void add(const SharedDrive& drive, const std::string& on, Map map) {
@@ -68,13 +112,19 @@ void add_all() {
   const auto hall = std::make_shared<const bench::Drive>(bench::warehouse_drive());
   add(room, "92_walls", room->plan);
   add(hall, "988_walls", hall->plan);
-  add(hall, "1e6_walls", bench::warehouses(1'000'000));
+  add(hall, "1e6_walls", bench::warehouses(kHallsOfAMillionWalls));
   benchmark::RegisterBenchmark("build_wall_index", build_wall_index)
       ->Unit(benchmark::kMillisecond)
-      ->Arg(92)
-      ->Arg(988)
-      ->Arg(100'000)
-      ->Arg(1'000'000);
+      ->ArgName("halls_a_side")
+      ->Arg(0)
+      ->Arg(1)
+      ->Arg(10)
+      ->Arg(kHallsOfAMillionWalls);
+  benchmark::RegisterBenchmark("match_a_thousand", match_a_thousand)
+      ->Unit(benchmark::kMillisecond)
+      ->ArgName("halls_a_side")
+      ->Arg(1)
+      ->Arg(kHallsOfAMillionWalls);
 }
 
 }  // namespace

@@ -63,19 +63,19 @@ FloorPlan warehouse() {
   return plan;
 }
 
-FloorPlan warehouses(std::size_t walls) {
+Eigen::Vector2d hall_at(int halls_a_side, int column, int row) {
+  return {kPitchX_m * (column - halls_a_side / 2), kPitchY_m * (row - halls_a_side / 2)};
+}
+
+FloorPlan warehouses(int halls_a_side) {
   const FloorPlan one = warehouse();
-  const int copies = static_cast<int>(
-      std::ceil(std::sqrt(static_cast<double>(walls) / static_cast<double>(one.segments().size()))));
   FloorPlan plan;
-  for (int row = 0; row < copies; ++row)
-    for (int column = 0; column < copies; ++column) {
-      const Eigen::Vector2d at(kPitchX_m * (column - copies / 2), kPitchY_m * (row - copies / 2));
+  for (int row = 0; row < halls_a_side; ++row)
+    for (int column = 0; column < halls_a_side; ++column)
       for (FloorPlan::Polyline wall : one.walls) {
-        for (Eigen::Vector2d& corner : wall) corner += at;
+        for (Eigen::Vector2d& corner : wall) corner += hall_at(halls_a_side, column, row);
         plan.walls.push_back(std::move(wall));
       }
-    }
   return plan;
 }
 

@@ -8,6 +8,8 @@
 namespace beaconless {
 namespace {
 
+constexpr double kFar_m = 1e100;  // beyond any cut, and its square still a number
+
 struct LoopInput {
   double x;
   double y;
@@ -56,8 +58,9 @@ void WallBeams::reserve(std::size_t beams) {
 void WallBeams::fill_up() {
   const std::size_t all = (count + kLanes - 1) / kLanes * kLanes;
   for (std::size_t i = count; i < all; ++i) {
-    x_m[i] = y_m[i] = uy[i] = ny[i] = offset_m[i] = information[i] = 0.0;
-    ux[i] = nx[i] = 1.0;
+    x_m[i] = y_m[i] = uy[i] = ny[i] = 0.0;
+    ux[i] = nx[i] = information[i] = 1.0;
+    offset_m[i] = kFar_m;
   }
 }
 

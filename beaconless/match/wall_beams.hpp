@@ -43,7 +43,7 @@ struct WallBeams {
     information[count] = known;
     ++count;
   }
-  /// Fills the last lanes with beams that know nothing.
+  /// Fills the last lanes with beams too far off their walls to be believed.
   void fill_up();
 };
 

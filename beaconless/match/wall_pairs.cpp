@@ -136,14 +136,37 @@ struct PairingInput {
 
 /// A wall as the laser's frame has it, its normal to the left: pointing away from a laser on the right.
 struct Facing {
+  Facing() = default;
   Facing(const WallIndex::Wall& wall, const PairingInput& in)
       : nx(in.sin * wall.along.x() - in.cos * wall.along.y()),
         ny(in.cos * wall.along.x() + in.sin * wall.along.y()),
         offset_m(wall.along.x() * (wall.a.y() - in.y) - wall.along.y() * (wall.a.x() - in.x)) {}
 
-  double nx;
-  double ny;
-  double offset_m;
+  double nx = 0.0;
+  double ny = 0.0;
+  double offset_m = 0.0;
+};
+
+/// Where beams are written to.
+struct Columns {
+  explicit Columns(WallBeams& beams)
+      : x_m(beams.x_m.data()),
+        y_m(beams.y_m.data()),
+        ux(beams.ux.data()),
+        uy(beams.uy.data()),
+        nx(beams.nx.data()),
+        ny(beams.ny.data()),
+        offset_m(beams.offset_m.data()),
+        information(beams.information.data()) {}
+
+  double* x_m;
+  double* y_m;
+  double* ux;
+  double* uy;
+  double* nx;
+  double* ny;
+  double* offset_m;
+  double* information;
 };
 
 /// The beams that lie on the map, summed up.
