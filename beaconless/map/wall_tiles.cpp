@@ -21,7 +21,7 @@ double square_of_distance(const WallIndex::Wall& wall, const Eigen::Vector2d& po
 
 std::uint32_t WallTiles::add(const Eigen::Vector2d& center, std::span<const std::uint32_t> walls) {
   lists_here_.clear();
-  keep_candidates(center, kSide * cell_m_, walls, kept_[0]);
+  keep_candidates(center, static_cast<double>(kSide) * cell_m_, walls, kept_[0]);
   if (kept_[0].empty()) return 0;
   divide(center, 0, 0, kSide, kept_[0], 1);
   const auto first = static_cast<std::uint32_t>(cells.size());
@@ -36,19 +36,21 @@ std::uint32_t WallTiles::add(const Eigen::Vector2d& center, std::span<const std:
   return 2 * first + 1;
 }
 
-void WallTiles::divide(const Eigen::Vector2d& center, int column, int row, int side,
+void WallTiles::divide(const Eigen::Vector2d& center, std::size_t column, std::size_t row, std::size_t side,
                        std::span<const std::uint32_t> walls, std::size_t level) {
   if (side == 1 || walls.size() <= 1) {
     const std::uint32_t place = list_of(walls);
-    for (int y = row; y < row + side; ++y)
-      for (int x = column; x < column + side; ++x) places_[static_cast<std::size_t>(kSide * y + x)] = place;
+    for (std::size_t y = row; y < row + side; ++y)
+      for (std::size_t x = column; x < column + side; ++x) places_[kSide * y + x] = place;
     return;
   }
-  const int half = side / 2;
-  for (const int y : {0, 1})
-    for (const int x : {0, 1}) {
-      const Eigen::Vector2d middle = center + half * cell_m_ * Eigen::Vector2d(x - 0.5, y - 0.5);
-      keep_candidates(middle, half * cell_m_, walls, kept_[level]);
+  const std::size_t half = side / 2;
+  const double half_m = static_cast<double>(half) * cell_m_;
+  for (const std::size_t y : {0U, 1U})
+    for (const std::size_t x : {0U, 1U}) {
+      const Eigen::Vector2d middle =
+          center + half_m * Eigen::Vector2d(static_cast<double>(x) - 0.5, static_cast<double>(y) - 0.5);
+      keep_candidates(middle, half_m, walls, kept_[level]);
       divide(middle, column + x * half, row + y * half, half, kept_[level], level + 1);
     }
 }

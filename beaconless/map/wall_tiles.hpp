@@ -21,7 +21,7 @@ namespace beaconless {
 /// tile beside walls. Source: the rule of WallIndex; point location in a quadtree.
 class WallTiles {
  public:
-  static constexpr int kSide = 8;  ///< cells along each side of a tile
+  static constexpr std::size_t kSide = 8;  ///< cells along each side of a tile
 
   /// In: walls that outlive it; lists that may be shared from tile to tile begin with an empty one.
   WallTiles(const std::vector<WallIndex::Wall>& walls, double reach_m, double cell_m)
@@ -34,7 +34,7 @@ class WallTiles {
   std::vector<std::uint32_t> lists{0};  ///< how many walls, then which; the first is empty
 
  private:
-  void divide(const Eigen::Vector2d& center, int column, int row, int side,
+  void divide(const Eigen::Vector2d& center, std::size_t column, std::size_t row, std::size_t side,
               std::span<const std::uint32_t> walls, std::size_t level);
   void keep_candidates(const Eigen::Vector2d& center, double side_m, std::span<const std::uint32_t> walls,
                        std::vector<std::uint32_t>& kept);
@@ -44,8 +44,8 @@ class WallTiles {
   double reach_m_;
   double cell_m_;
   std::vector<double> squares_m2_;
-  std::array<std::vector<std::uint32_t>, 4> kept_;  // of the square of each size that is being divided
-  std::array<std::uint32_t, static_cast<std::size_t>(kSide) * kSide> places_{};  // in lists, of the cells
+  std::array<std::vector<std::uint32_t>, 4> kept_;     // of the square of each size that is being divided
+  std::array<std::uint32_t, kSide * kSide> places_{};  // in lists, of the cells
   std::vector<std::uint32_t> lists_here_;
 };
 
