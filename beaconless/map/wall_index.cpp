@@ -3,28 +3,45 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <utility>
+
+#include "beaconless/map/wall_tiles.hpp"
 
 namespace beaconless {
 namespace {
 
-/// Calls visit(column, row, distance from the cell's center to the wall) for every cell within `reach_m` of
-/// it.
+/// The tiles that cover a plan.
+struct Tiling {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  double side_m = 1.0;
+  int columns = 0;
+  int rows = 0;
+
+  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  std::size_t tile(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+  int column_of(double x) const { return static_cast<int>(std::floor((x - low.x()) / side_m)); }
+  int row_of(double y) const { return static_cast<int>(std::floor((y - low.y()) / side_m)); }
+  Eigen::Vector2d center_of(int column, int row) const {
+    return low + side_m * Eigen::Vector2d(column + 0.5, row + 0.5);
+  }
+};
+
+/// Calls visit(column, row) for every tile whose center is within `reach_m` of a wall.
 template <class Visit>
-void for_cells_near(const Segment2& wall, double reach_m, const Eigen::Vector2d& low, double cell_m,
-                    int columns, int rows, Visit visit) {
-  const auto column_of = [&](double x) { return static_cast<int>(std::floor((x - low.x()) / cell_m)); };
-  const auto row_of = [&](double y) { return static_cast<int>(std::floor((y - low.y()) / cell_m)); };
-  const int y0 = std::max(0, row_of(std::min(wall.a.y(), wall.b.y()) - reach_m));
-  const int y1 = std::min(rows - 1, row_of(std::max(wall.a.y(), wall.b.y()) + reach_m));
+void for_tiles_near(const Segment2& wall, double reach_m, const Tiling& tiling, Visit visit) {
+  const int y0 = std::max(0, tiling.row_of(std::min(wall.a.y(), wall.b.y()) - reach_m));
+  const int y1 = std::min(tiling.rows - 1, tiling.row_of(std::max(wall.a.y(), wall.b.y()) + reach_m));
   const Eigen::Vector2d along = wall.b - wall.a;
   for (int y = y0; y <= y1; ++y) {
     // The part of the wall whose y lies within reach of this row bounds the columns worth looking at.
     double s0 = 0.0;
     double s1 = 1.0;
     if (std::abs(along.y()) > 1e-12) {
-      const double middle = low.y() + (y + 0.5) * cell_m - wall.a.y();
+      const double middle = tiling.center_of(0, y).y() - wall.a.y();
       const double p = (middle - reach_m) / along.y();
       const double q = (middle + reach_m) / along.y();
       s0 = std::clamp(std::min(p, q), 0.0, 1.0);
@@ -32,23 +49,53 @@ void for_cells_near(const Segment2& wall, double reach_m, const Eigen::Vector2d&
     }
     const double xa = wall.a.x() + s0 * along.x();
     const double xb = wall.a.x() + s1 * along.x();
-    const int x0 = std::max(0, column_of(std::min(xa, xb) - reach_m));
-    const int x1 = std::min(columns - 1, column_of(std::max(xa, xb) + reach_m));
-    for (int x = x0; x <= x1; ++x) {
-      const Eigen::Vector2d center = low + cell_m * Eigen::Vector2d(x + 0.5, y + 0.5);
-      const double distance = wall.distance_m(center);
-      if (distance <= reach_m) visit(x, y, distance);
-    }
+    const int x0 = std::max(0, tiling.column_of(std::min(xa, xb) - reach_m));
+    const int x1 = std::min(tiling.columns - 1, tiling.column_of(std::max(xa, xb) + reach_m));
+    for (int x = x0; x <= x1; ++x)
+      if (wall.distance_m(tiling.center_of(x, y)) <= reach_m) visit(x, y);
   }
 }
 
-constexpr double kMaxVisits = 5e7;  // of cells by walls, so that no plan takes for ever
+constexpr double kMaxVisits = 4e7;  // of tiles by walls, so that no plan takes for ever
 
-double area_of_reach(const std::vector<Segment2>& walls, double reach_m) {
-  double area_m2 = 0.0;
-  for (const Segment2& wall : walls) area_m2 += (wall.length_m() + 2.0 * reach_m) * 2.0 * reach_m;
-  return area_m2;
+Tiling tiling_of(const FloorPlan::Bounds& bounds, const std::vector<Segment2>& walls, double reach_m,
+                 double least_side_m) {
+  Tiling tiling;
+  tiling.low = bounds.low.array() - reach_m;
+  const Eigen::Vector2d extent = bounds.high.array() + reach_m - tiling.low.array();
+  double visited_m2 = 0.0;
+  for (const Segment2& wall : walls) visited_m2 += (wall.length_m() + 2.0 * reach_m) * 2.0 * reach_m;
+  tiling.side_m = std::max({least_side_m, std::sqrt(extent.x() * extent.y() / WallIndex::kMaxTiles),
+                            std::sqrt(visited_m2 / kMaxVisits)});
+  tiling.columns = static_cast<int>(std::ceil(extent.x() / tiling.side_m));
+  tiling.rows = static_cast<int>(std::ceil(extent.y() / tiling.side_m));
+  return tiling;
 }
+
+/// The walls whose distance from the center of a tile is within reach, one tile after the other.
+class WallsOfTiles {
+ public:
+  WallsOfTiles(const std::vector<Segment2>& walls, double reach_m, const Tiling& tiling)
+      : ends_(tiling.count() + 1, 0) {
+    const auto visit_all = [&](auto visit) {
+      for (std::uint32_t i = 0; i < walls.size(); ++i)
+        for_tiles_near(walls[i], reach_m, tiling, [&](int x, int y) { visit(tiling.tile(x, y), i); });
+    };
+    visit_all([&](std::size_t tile, std::uint32_t /*wall*/) { ++ends_[tile + 1]; });
+    for (std::size_t tile = 0; tile < tiling.count(); ++tile) ends_[tile + 1] += ends_[tile];
+    walls_.resize(ends_.back());
+    // While a tile is filled, its entry is where the next wall goes: at last where the tile ends.
+    visit_all([&](std::size_t tile, std::uint32_t wall) { walls_[ends_[tile]++] = wall; });
+  }
+
+  std::span<const std::uint32_t> of(std::size_t tile) const {
+    return {walls_.data() + (tile == 0 ? 0 : ends_[tile - 1]), walls_.data() + ends_[tile]};
+  }
+
+ private:
+  std::vector<std::uint32_t> ends_;
+  std::vector<std::uint32_t> walls_;
+};
 
 /// The walls without those that are there twice, whichever way round.
 std::vector<Segment2> distinct(std::vector<Segment2> walls) {
@@ -69,47 +116,37 @@ std::vector<Segment2> distinct(std::vector<Segment2> walls) {
 WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
     : reach_m_(reach_m), cell_m_(cell_m) {
   const std::vector<Segment2> segments = distinct(plan.segments());
+  if (segments.empty()) return;
+  const Tiling tiling = tiling_of(plan.bounds(), segments, reach_m_, kTile * cell_m_);
+  low_ = tiling.low;
+  cell_m_ = tiling.side_m / kTile;
+  cells_per_m_ = 1.0 / cell_m_;
+  columns_ = static_cast<int>(kTile) * tiling.columns;
+  rows_ = static_cast<int>(kTile) * tiling.rows;
+  tile_columns_ = static_cast<std::size_t>(tiling.columns);
+  walls_.reserve(segments.size());
   for (const Segment2& segment : segments)
     walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m()});
-  if (walls_.empty()) return;
 
-  const FloorPlan::Bounds bounds = plan.bounds();
-  low_ = bounds.low.array() - reach_m_;
-  const Eigen::Vector2d extent = bounds.high.array() + reach_m_ - low_.array();
-  cell_m_ = std::max({cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells),
-                      std::sqrt(area_of_reach(segments, reach_m_) / kMaxVisits)});
-  cells_per_m_ = 1.0 / cell_m_;
-  columns_ = static_cast<int>(std::ceil(extent.x() / cell_m_));
-  rows_ = static_cast<int>(std::ceil(extent.y() / cell_m_));
-  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  const auto cell_of = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
-  };
+  // Of the walls within reach of any point of a tile, those that can be nearest somewhere in each cell.
+  const WallsOfTiles within_reach(segments, reach_m_ + 0.5 * std::numbers::sqrt2 * tiling.side_m, tiling);
+  WallTiles divided(walls_, reach_m_, cell_m_);
+  tiles_.assign(tiling.count(), 0);
+  for (int y = 0; y < tiling.rows; ++y)
+    for (int x = 0; x < tiling.columns; ++x) {
+      const std::size_t tile = tiling.tile(x, y);
+      const std::span<const std::uint32_t> here = within_reach.of(tile);
+      if (!here.empty()) tiles_[tile] = divided.add(tiling.center_of(x, y), here);
+    }
+  cells_ = std::move(divided.cells);
+  lists_ = std::move(divided.lists);
+  cells_.shrink_to_fit();
+  lists_.shrink_to_fit();
+}
 
-  // Any point of a cell is within half a diagonal of its center, so a wall can be nearest to it only when it
-  // is within a whole diagonal of being nearest to the center.
-  const double diagonal = cell_m_ * std::sqrt(2.0);
-  const double reach = reach_m_ + 0.5 * diagonal;
-  std::vector<float> nearest(cells, std::numeric_limits<float>::infinity());
-  for (const Segment2& segment : segments)
-    for_cells_near(segment, reach, low_, cell_m_, columns_, rows_, [&](int x, int y, double distance) {
-      nearest[cell_of(x, y)] = std::min(nearest[cell_of(x, y)], static_cast<float>(distance));
-    });
-  const auto is_candidate = [&](std::size_t cell, double distance) {
-    return distance <= static_cast<double>(nearest[cell]) + diagonal + 1e-5;
-  };
-  first_.assign(cells + 1, 0);
-  for (const Segment2& segment : segments)
-    for_cells_near(segment, reach, low_, cell_m_, columns_, rows_, [&](int x, int y, double distance) {
-      if (is_candidate(cell_of(x, y), distance)) ++first_[cell_of(x, y) + 1];
-    });
-  for (std::size_t cell = 0; cell < cells; ++cell) first_[cell + 1] += first_[cell];
-  candidates_.resize(first_[cells]);
-  std::vector<std::uint32_t> filled(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < segments.size(); ++i)
-    for_cells_near(segments[i], reach, low_, cell_m_, columns_, rows_, [&](int x, int y, double distance) {
-      if (is_candidate(cell_of(x, y), distance)) candidates_[filled[cell_of(x, y)]++] = i;
-    });
+std::size_t WallIndex::memory_bytes() const {
+  return walls_.capacity() * sizeof(Wall) +
+         (tiles_.capacity() + cells_.capacity() + lists_.capacity()) * sizeof(std::uint32_t);
 }
 
 std::optional<SurfacePoint> WallIndex::nearest(const Eigen::Vector2d& point) const {

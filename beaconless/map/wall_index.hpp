@@ -10,19 +10,20 @@
 
 namespace beaconless {
 
-/// Finds the wall nearest to a point: a grid of cells, each with the few walls that can be nearest anywhere
-/// in it.
+/// Finds the wall nearest to a point: tiles of 8 x 8 cells, each cell with the few walls that can be nearest
+/// anywhere in it. A tile with one list for all its cells holds it once; one without walls holds nothing.
 ///
-/// Exact: the answer is that of comparing with every wall. Cost: one cell and usually one to three walls a
-/// query; built in time and memory linear in the walls' area of reach. Source: uniform bucketing; the
-/// candidate rule d(center) <= d_min(center) + diagonal follows from the triangle inequality.
+/// Exact: the answer is that of comparing with every wall. Cost: one tile, one cell and usually one to three
+/// walls a query; built in time and memory linear in the walls' area of reach, and four bytes a tile of the
+/// plan's area. Source: uniform bucketing; the candidate rule d(center) <= d_min(center) + diagonal follows
+/// from the triangle inequality.
 class WallIndex {
  public:
   /// Walls further than `reach_m` from a query are not found. `cell_m` trades memory for candidates per cell;
-  /// it is made larger where the plan would need more than kMaxCells.
+  /// it is made larger where the plan would need more than kMaxTiles.
   explicit WallIndex(const FloorPlan& plan, double reach_m = 1.0, double cell_m = 0.10);
 
-  static constexpr double kMaxCells = 16e6;
+  static constexpr double kMaxTiles = 16e6;
 
   struct Wall {
     Eigen::Vector2d a;
@@ -36,25 +37,35 @@ class WallIndex {
     const double x = (point_map.x() - low_.x()) * cells_per_m_;
     const double y = (point_map.y() - low_.y()) * cells_per_m_;
     if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) return {};  // NaN too
-    const std::uint32_t* const first =
-        first_.data() + static_cast<std::ptrdiff_t>(y) * columns_ + static_cast<std::ptrdiff_t>(x);
-    return {candidates_.data() + first[0], candidates_.data() + first[1]};
+    const auto column = static_cast<std::uint32_t>(x);
+    const auto row = static_cast<std::uint32_t>(y);
+    const std::uint32_t tile = tiles_[static_cast<std::size_t>(row / kTile) * tile_columns_ + column / kTile];
+    const std::uint32_t cell = (row % kTile) * kTile + column % kTile;
+    // Of a tile that is not divided all cells are its first.
+    const std::uint32_t* const list = lists_.data() + cells_[tile / 2 + (cell & (0 - tile % 2))];
+    return {list + 1, list[0]};
   }
   const Wall& wall(std::uint32_t id) const { return walls_[id]; }
 
   double reach_m() const { return reach_m_; }
   std::size_t wall_count() const { return walls_.size(); }
+  /// What it holds on the heap.
+  std::size_t memory_bytes() const;
 
  private:
+  static constexpr std::uint32_t kTile = 8;  // cells along each side of a tile
+
   std::vector<Wall> walls_;
   double reach_m_ = 0.0;
   double cell_m_ = 0.0;
   double cells_per_m_ = 0.0;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
-  int columns_ = 0;
+  int columns_ = 0;  // of cells
   int rows_ = 0;
-  std::vector<std::uint32_t> first_;  // candidates_[first_[c] … first_[c + 1]) belong to cell c
-  std::vector<std::uint32_t> candidates_;
+  std::size_t tile_columns_ = 0;
+  std::vector<std::uint32_t> tiles_;  // twice the number of a tile's first cell, and 1 if it is divided
+  std::vector<std::uint32_t> cells_;  // where in lists_ the list of each begins
+  std::vector<std::uint32_t> lists_;  // how many walls, then which; cells of a tile share what is the same
 };
 
 static_assert(SurfaceIndex<WallIndex>);

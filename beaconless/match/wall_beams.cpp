@@ -8,6 +8,8 @@
 namespace beaconless {
 namespace {
 
+constexpr double kFar_m = 1e100;  // beyond any cut, and its square still a number
+
 struct LoopInput {
   double x;
   double y;
@@ -53,24 +55,12 @@ void WallBeams::reserve(std::size_t beams) {
   for (auto* column : {&x_m, &y_m, &ux, &uy, &nx, &ny, &offset_m, &information}) column->resize(room);
 }
 
-void WallBeams::add(const Eigen::Vector2d& end, const Eigen::Vector2d& direction,
-                    const Eigen::Vector2d& normal, double offset, double known) {
-  x_m[count] = end.x();
-  y_m[count] = end.y();
-  ux[count] = direction.x();
-  uy[count] = direction.y();
-  nx[count] = normal.x();
-  ny[count] = normal.y();
-  offset_m[count] = offset;
-  information[count] = known;
-  ++count;
-}
-
 void WallBeams::fill_up() {
   const std::size_t all = (count + kLanes - 1) / kLanes * kLanes;
   for (std::size_t i = count; i < all; ++i) {
-    x_m[i] = y_m[i] = uy[i] = ny[i] = offset_m[i] = information[i] = 0.0;
-    ux[i] = nx[i] = 1.0;
+    x_m[i] = y_m[i] = uy[i] = ny[i] = 0.0;
+    ux[i] = nx[i] = information[i] = 1.0;
+    offset_m[i] = kFar_m;
   }
 }
 

@@ -30,9 +30,20 @@ struct WallBeams {
   void clear() { count = 0; }
   /// Makes room for so many beams. Allocates only to hold more than ever before.
   void reserve(std::size_t beams);
+  /// Where there is room for one more.
   void add(const Eigen::Vector2d& end, const Eigen::Vector2d& direction, const Eigen::Vector2d& normal,
-           double offset, double known);
-  /// Fills the last lanes with beams that know nothing.
+           double offset, double known) {
+    x_m[count] = end.x();
+    y_m[count] = end.y();
+    ux[count] = direction.x();
+    uy[count] = direction.y();
+    nx[count] = normal.x();
+    ny[count] = normal.y();
+    offset_m[count] = offset;
+    information[count] = known;
+    ++count;
+  }
+  /// Fills the last lanes with beams too far off their walls to be believed.
   void fill_up();
 };
 

@@ -3,7 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+
+#if defined(__x86_64__) || defined(__i386__)
+#include <immintrin.h>
+#endif
 
 namespace beaconless {
 namespace {
@@ -20,6 +26,14 @@ struct Gate {
   double least_cos;
 };
 
+/// One beam as seen from the pose, map frame.
+struct Ray {
+  double end_x;
+  double end_y;
+  double direction_x;
+  double direction_y;
+};
+
 /// The wall that one beam hits.
 struct Hit {
   const WallIndex::Wall* wall = nullptr;
@@ -34,27 +48,26 @@ struct Beside {
   double across;  // sine from the wall to the beam
 };
 
-inline Beside beside(const WallIndex::Wall& wall, const WallsScratch::Ray& ray) {
-  const double from_x = ray.end.x() - wall.a.x();
-  const double from_y = ray.end.y() - wall.a.y();
+inline Beside beside(const WallIndex::Wall& wall, const Ray& ray) {
+  const double from_x = ray.end_x - wall.a.x();
+  const double from_y = ray.end_y - wall.a.y();
   return {wall.along.x() * from_x + wall.along.y() * from_y,
           wall.along.x() * from_y - wall.along.y() * from_x,
-          wall.along.x() * ray.direction.y() - wall.along.y() * ray.direction.x()};
+          wall.along.x() * ray.direction_y - wall.along.y() * ray.direction_x};
 }
 
 /// The wall that a beam meets nearest to where it ends; of two that it meets there, the first.
-inline Hit meet(const WallIndex& walls, const WallsScratch::Ray& ray, const Gate& gate) {
+inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
   Hit best;
   double best_beyond_m = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t id : walls.near(ray.end)) {
+  for (const std::uint32_t id : walls.near({ray.end_x, ray.end_y})) {
     const WallIndex::Wall& wall = walls.wall(id);
     const auto [along, side, across] = beside(wall, ray);
     const double outside = std::max({0.0, -along, along - wall.length_m});
     best.nearest_m2 = std::min(best.nearest_m2, side * side + outside * outside);
     if (std::abs(side) > gate.distance_m || std::abs(across) < gate.least_cos) continue;
     const double beyond = side / across;  // of the beam's end, along the beam
-    const double at =
-        along - beyond * (wall.along.x() * ray.direction.x() + wall.along.y() * ray.direction.y());
+    const double at = along - beyond * (wall.along.x() * ray.direction_x + wall.along.y() * ray.direction_y);
     if (at < -gate.slack_m || at > wall.length_m + gate.slack_m) continue;
     const bool is_first = beyond > best_beyond_m && beyond < gate.first_m;
     const bool is_behind = beyond < best_beyond_m && best_beyond_m < gate.first_m;
@@ -69,31 +82,13 @@ inline Hit meet(const WallIndex& walls, const WallsScratch::Ray& ray, const Gate
 
 /// Whether a beam plainly hits the wall that the beam before it hit: well within its ends, and nearer to it
 /// than noise alone would have it. Then no other wall is looked up.
-inline bool hits_again(Hit& hit, const WallsScratch::Ray& ray, double near_m, double least_cos) {
+inline bool hits_again(Hit& hit, const Ray& ray, double near_m, double least_cos) {
   const auto [along, side, across] = beside(*hit.wall, ray);
   hit.across = across;
   hit.nearest_m2 = side * side;
   // |side| below near · |across| is |beyond| below near; the way along the wall is then below near too.
   return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos && along > near_m &&
          along < hit.wall->length_m - near_m;
-}
-
-/// Every beam as seen from a pose: where it ends and where it goes.
-void look(std::span<const Eigen::Vector2d> points, const Pose2& pose, std::vector<WallsScratch::Ray>& rays) {
-  const double cos = std::cos(pose.theta_rad);
-  const double sin = std::sin(pose.theta_rad);
-  if (rays.size() < points.size()) rays.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points[i].x();
-    const double y = points[i].y();
-    const double range = std::sqrt(x * x + y * y);
-    const double inverse = 1.0 / range;
-    WallsScratch::Ray& ray = rays[i];
-    ray.unit = {x * inverse, y * inverse};
-    ray.direction = {cos * ray.unit.x() - sin * ray.unit.y(), sin * ray.unit.x() + cos * ray.unit.y()};
-    ray.end = {pose.x_m + cos * x - sin * y, pose.y_m + sin * x + cos * y};
-    ray.range_m = range;
-  }
 }
 
 /// What a range to a wall tells, as information.
@@ -106,12 +101,16 @@ class Knowledge {
         map_variance_(config.map_sigma_m * config.map_sigma_m),
         is_the_same_(per_m2_ == 0.0 && footprint2_ == 0.0 && map_variance_ == 0.0) {}
 
-  double of(double range_m, double across) const {
-    if (is_the_same_) return 1.0 / own_variance_;
-    const double inverse_cos2 = 1.0 / (across * across);
-    const double range2 = range_m * range_m;
-    return 1.0 / (own_variance_ + per_m2_ * range2 + footprint2_ * range2 * (inverse_cos2 - 1.0) +
-                  map_variance_ * inverse_cos2);
+  /// Of one beam, or of several in lanes. Not returned: how lanes are depends on the processor.
+  template <class Number>
+  __attribute__((always_inline)) void tell(const Number& range_m, const Number& across,
+                                           Number& information) const {
+    information = 1.0 / own_variance_ + Number{};
+    if (is_the_same_) return;
+    const Number inverse_cos2 = 1.0 / (across * across);
+    const Number range2 = range_m * range_m;
+    information = 1.0 / (own_variance_ + per_m2_ * range2 + footprint2_ * range2 * (inverse_cos2 - 1.0) +
+                         map_variance_ * inverse_cos2);
   }
 
  private:
@@ -122,46 +121,109 @@ class Knowledge {
   bool is_the_same_;  // for all beams
 };
 
+/// What all beams of a scan are paired by.
+struct PairingInput {
+  double x;  // of the laser, map frame
+  double y;
+  double cos;
+  double sin;
+  Gate gate;
+  double plain_m;
+  double on_map_m2;
+  double inverse_on_map_m2;
+  Knowledge knowledge;
+};
+
+/// A wall as the laser's frame has it, its normal to the left: pointing away from a laser on the right.
+struct Facing {
+  Facing() = default;
+  Facing(const WallIndex::Wall& wall, const PairingInput& in)
+      : nx(in.sin * wall.along.x() - in.cos * wall.along.y()),
+        ny(in.cos * wall.along.x() + in.sin * wall.along.y()),
+        offset_m(wall.along.x() * (wall.a.y() - in.y) - wall.along.y() * (wall.a.x() - in.x)) {}
+
+  double nx = 0.0;
+  double ny = 0.0;
+  double offset_m = 0.0;
+};
+
+/// Where beams are written to.
+struct Columns {
+  explicit Columns(WallBeams& beams)
+      : x_m(beams.x_m.data()),
+        y_m(beams.y_m.data()),
+        ux(beams.ux.data()),
+        uy(beams.uy.data()),
+        nx(beams.nx.data()),
+        ny(beams.ny.data()),
+        offset_m(beams.offset_m.data()),
+        information(beams.information.data()) {}
+
+  double* x_m;
+  double* y_m;
+  double* ux;
+  double* uy;
+  double* nx;
+  double* ny;
+  double* offset_m;
+  double* information;
+};
+
+/// The beams that lie on the map, summed up.
+struct OnMap {
+  double fit = 0.0;
+  std::int64_t count = 0;
+};
+
+namespace two_lanes {
+#define WALL_LANES 2
+#define WALL_TARGET
+#include "beaconless/match/wall_pair_lanes.inc"
+#undef WALL_LANES
+#undef WALL_TARGET
+}  // namespace two_lanes
+
+#if defined(__x86_64__) || defined(__i386__)
+#define WALL_HAS_AVX2
+namespace four_lanes {
+#define WALL_LANES 4
+#define WALL_TARGET __attribute__((target("avx2,fma")))
+#include "beaconless/match/wall_pair_lanes.inc"
+#undef WALL_LANES
+#undef WALL_TARGET
+}  // namespace four_lanes
+#endif
+
 }  // namespace
 
 WallPairing pair_with_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls,
                             const Pose2& map_from_laser, double gate_m, const WallsConfig& config,
-                            WallsScratch& scratch) {
-  const Pose2& pose = map_from_laser;
-  const Gate gate{gate_m, std::max(kSlack_m, 0.3 * (gate_m - config.near_gate_m)),
-                  std::max(kFirst_sigma * config.sigma_m, 0.3 * gate_m),
-                  std::cos(radians(config.max_incidence_deg))};
-  const Knowledge knowledge(config);
-  const double cos = std::cos(pose.theta_rad);
-  const double sin = std::sin(pose.theta_rad);
+                            WallBeams& beams, [[maybe_unused]] VectorLoop loop) {
   const double on_map_m2 = config.on_map_m * config.on_map_m;
-  const double plain_m = kPlain_sigma * config.sigma_m;
-  Hit hit;
-  double fit = 0.0;
-  int on_map = 0;
-  look(points, pose, scratch.rays);
-  WallBeams& beams = scratch.beams;
+  const PairingInput in{
+      .x = map_from_laser.x_m,
+      .y = map_from_laser.y_m,
+      .cos = std::cos(map_from_laser.theta_rad),
+      .sin = std::sin(map_from_laser.theta_rad),
+      .gate = {gate_m, std::max(kSlack_m, 0.3 * (gate_m - config.near_gate_m)),
+               std::max(kFirst_sigma * config.sigma_m, 0.3 * gate_m),
+               std::cos(radians(config.max_incidence_deg))},
+      .plain_m = kPlain_sigma * config.sigma_m,
+      .on_map_m2 = on_map_m2,
+      .inverse_on_map_m2 = 1.0 / on_map_m2,
+      .knowledge = Knowledge(config),
+  };
   beams.clear();
   beams.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const WallsScratch::Ray& ray = scratch.rays[i];
-    if (hit.wall == nullptr || !hits_again(hit, ray, plain_m, gate.least_cos)) hit = meet(walls, ray, gate);
-    if (hit.nearest_m2 <= on_map_m2) {
-      fit += 1.0 - hit.nearest_m2 / on_map_m2;
-      ++on_map;
-    }
-    if (hit.wall == nullptr) continue;
-    // The normal looks away from the laser.
-    const double sign = hit.across > 0.0 ? 1.0 : -1.0;
-    const double nx = -sign * hit.wall->along.y();
-    const double ny = sign * hit.wall->along.x();
-    beams.add(points[i], ray.unit, {cos * nx + sin * ny, cos * ny - sin * nx},
-              nx * (hit.wall->a.x() - pose.x_m) + ny * (hit.wall->a.y() - pose.y_m),
-              knowledge.of(ray.range_m, hit.across));
-  }
+#ifdef WALL_HAS_AVX2
+  const OnMap on_map = loop == VectorLoop::avx2 ? four_lanes::pair_lanes(points, walls, in, beams)
+                                                : two_lanes::pair_lanes(points, walls, in, beams);
+#else
+  const OnMap on_map = two_lanes::pair_lanes(points, walls, in, beams);
+#endif
   beams.fill_up();
   const double all = static_cast<double>(std::max<std::size_t>(points.size(), 1));
-  return {on_map / all, 1.0 - fit / all};
+  return {static_cast<double>(on_map.count) / all, 1.0 - on_map.fit / all};
 }
 
 }  // namespace beaconless

@@ -17,13 +17,14 @@ struct WallPairing {
   double misfit = 1.0;
 };
 
-/// Pairs every beam with the wall that it hits from a pose; `scratch.beams` holds those that hit one.
+/// Pairs every beam with the wall that it hits from a pose; `beams` then holds those that hit one.
 ///
-/// In: ends of beams in the laser frame; beams that end further than `gate_m` beside a wall do not hit it. A
-/// beam that is within three standard deviations of the wall of the beam before it is on that wall, whatever
-/// else is there; any other is looked up. Cost: a look-up of a wall a beam at most.
+/// In: ends of beams in the laser frame; a loop that this processor knows. Beams that end further than
+/// `gate_m` beside a wall do not hit it. A beam that is within three standard deviations of the wall of the
+/// beam before it is on that wall, whatever else is there; any other is looked up. Cost: four beams at once
+/// on one wall, a look-up for any other.
 WallPairing pair_with_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls,
                             const Pose2& map_from_laser, double gate_m, const WallsConfig& config,
-                            WallsScratch& scratch);
+                            WallBeams& beams, VectorLoop loop);
 
 }  // namespace beaconless

@@ -114,7 +114,7 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
   for (int round = 1; round <= kRounds; ++round) {
     // 1. Which wall every beam hits, as seen from where the laser is thought to be.
     const Pose2 before = result.map_from_laser;
-    const WallPairing pairing = pair_with_walls(points, walls, before, gate_m, believed, scratch);
+    const WallPairing pairing = pair_with_walls(points, walls, before, gate_m, believed, scratch.beams, loop);
     result.on_map_ratio = pairing.on_map_ratio;
     result.misfit = pairing.misfit;
     result.pair_count = static_cast<int>(scratch.beams.count);

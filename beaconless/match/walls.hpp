@@ -32,13 +32,6 @@ void describe(Fields& fields, WallsConfig& config);
 
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct WallsScratch {
-  struct Ray {
-    Eigen::Vector2d unit = Eigen::Vector2d::Zero();       ///< laser frame
-    Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< the same, map frame
-    Eigen::Vector2d end = Eigen::Vector2d::Zero();        ///< map frame
-    double range_m = 0.0;
-  };
-  std::vector<Ray> rays;
   WallBeams beams;
 };
 
