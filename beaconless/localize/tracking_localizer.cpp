@@ -86,12 +86,11 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
     return estimate;
   }
   // 1. Where the robot should be by its motion so far.
-  if (last_scan_)
+  if (last_scan_ && odometry_.is_trusted())
     if (const auto told = odometry_.between(*last_scan_, scan->stamp()))
       motion_.hear(*told, seconds_between(*last_scan_, scan->stamp()));
   Prediction prediction = motion_.predict(scan->stamp());
   prediction.motion = motion_during(*scan, motion_);
-  last_scan_ = scan->stamp();
   bent_.reset();
   const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
   // 2. What the laser saw.
@@ -120,6 +119,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
           : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
   first_scan_ = false;
+  last_scan_ = scan->stamp();
   return last_;
 }
 
@@ -178,8 +178,8 @@ void TrackingLocalizer::observe(const Scan& scan, const Pose2& map_from_laser, c
 }
 
 ToldTwist TrackingLocalizer::motion_during(const Scan& scan, MotionFilter motion) const {
-  if (const auto told = odometry_.between(scan.stamp(), scan.stamp() + scan.sweep_time_s()))
-    motion.hear(*told, scan.sweep_time_s());
+  const auto told = odometry_.between(scan.stamp(), scan.stamp() + scan.sweep_time_s());
+  if (told && odometry_.is_trusted()) motion.hear(*told, scan.sweep_time_s());
   return motion.motion_at(scan.stamp());
 }
 
@@ -335,6 +335,8 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
   // 4. What carries over to the next scan.
+  const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
+  if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);
   if (caveat.empty())
     motion_.correct(scan.stamp(), estimate.map_from_base, compared);
   else

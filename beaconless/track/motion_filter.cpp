@@ -92,18 +92,22 @@ Prediction MotionFilter::predict(Stamp stamp) const {
   return prediction;
 }
 
-void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
-  const bool is_first = !stamped_;
-  const double dt = is_first ? 0.0 : elapsed_s(stamp);
-  const Pose2 before = last_;
+std::optional<ToldTwist> MotionFilter::told_by(Stamp stamp, const Pose2& map_from_base,
+                                               const Eigen::Matrix3d& covariance) const {
+  if (!stamped_) return std::nullopt;
+  const double dt = elapsed_s(stamp);
   Eigen::Matrix3d to_base = Eigen::Matrix3d::Identity();
   to_base.topLeftCorner<2, 2>() = map_from_base.rotation().transpose();
   const Eigen::Matrix3d both = to_base * (covariance_ + covariance) * to_base.transpose();
-  if (is_first) return hold(stamp, map_from_base, covariance);
-  const ToldTwist told{(before.inverse() * map_from_base).log().vector() / dt, both / (dt * dt)};
-  note_change(told, dt);
+  return ToldTwist{(last_.inverse() * map_from_base).log().vector() / dt, both / (dt * dt)};
+}
+
+void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
+  const auto told = told_by(stamp, map_from_base, covariance);
+  if (!told) return hold(stamp, map_from_base, covariance);
+  note_change(*told, elapsed_s(stamp));
   set(stamp, map_from_base, covariance);
-  take(told);
+  take(*told);
 }
 
 bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "beaconless/core/describe.hpp"
@@ -53,6 +55,10 @@ class MotionFilter {
 
   /// Tells the filter where the robot was at `stamp`, and how sure that is.
   void correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
+
+  /// The mean velocity from the last pose to another one; nothing before the first.
+  std::optional<ToldTwist> told_by(Stamp stamp, const Pose2& map_from_base,
+                                   const Eigen::Matrix3d& covariance) const;
 
   /// Tells it of a velocity that was measured otherwise, as the mean of `lasting_s` from the last pose on.
   /// Not heard, and false, where it is far from what is possible: a slipping wheel, a jump of somebody's

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 namespace beaconless {
 namespace {
 
@@ -11,6 +13,8 @@ constexpr double kMoved_m = 0.01;
 constexpr double kMoved_rad = 0.01;
 constexpr double kCoveredShare = 0.5;  // of the time between two moments, at least
 constexpr double kLeast_s = 1e-4;
+constexpr double kAgrees = 16.0;  // squared standard deviations
+constexpr int kDistrust = -20;    // scans that must agree, besides the usual ones, after one that did not
 
 }  // namespace
 
@@ -60,6 +64,18 @@ std::optional<ToldTwist> OdometryTrack::between(Stamp from, Stamp to) const {
   const double turn = std::hypot(config_.sigma_radps, config_.share * told.per_s.z());
   told.covariance = Eigen::Vector3d(move * move, move * move, turn * turn).asDiagonal();
   return told;
+}
+
+void OdometryTrack::compare(Stamp from, Stamp to, const ToldTwist& seen) {
+  const auto told = between(from, to);
+  if (!told) {
+    agreed_ = 0;
+    return;
+  }
+  const Eigen::Vector3d off = told->per_s - seen.per_s;
+  const Eigen::Matrix3d expected = told->covariance + seen.covariance + 1e-12 * Eigen::Matrix3d::Identity();
+  const bool agrees = off.dot(expected.ldlt().solve(off)) < kAgrees;
+  agreed_ = agrees ? std::min(agreed_ + 1, kAgreed) : kDistrust;
 }
 
 }  // namespace beaconless

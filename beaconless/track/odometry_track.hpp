@@ -24,7 +24,9 @@ void describe(Fields& fields, OdometryConfig& config);
 
 /// The last seconds of an odometry, asked for the motion between two moments.
 ///
-/// Odometry that has never moved tells nothing: logs without any have zeros there. Allocates nothing.
+/// Odometry that has never moved tells nothing: logs without any have zeros there. What it tells is to be
+/// believed only as long as it agrees with what is seen, because logs also hold odometry that somebody has
+/// corrected, with jumps. Allocates nothing.
 class OdometryTrack {
  public:
   explicit OdometryTrack(const OdometryConfig& config = {}) : config_(config) {}
@@ -34,6 +36,14 @@ class OdometryTrack {
 
   /// The mean velocity between two moments; nothing where most of the time between them is not covered.
   std::optional<ToldTwist> between(Stamp from, Stamp to) const;
+
+  /// Hears what the velocity was between two moments; from this trust is made or lost.
+  void compare(Stamp from, Stamp to, const ToldTwist& seen);
+
+  /// Whether it has agreed with what was seen for a while.
+  bool is_trusted() const { return agreed_ >= kAgreed; }
+
+  static constexpr int kAgreed = 5;  ///< in a row, to be trusted
 
  private:
   struct Entry {
@@ -50,6 +60,7 @@ class OdometryTrack {
   std::size_t next_ = 0;
   std::size_t count_ = 0;
   bool has_moved_ = false;
+  int agreed_ = 0;  // scans in a row
 };
 
 }  // namespace beaconless
