@@ -209,7 +209,7 @@ Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config,
   const LocalizerConfig settled = for_map(config, map);
   const auto* grid = std::get_if<OccupancyGrid>(&map);
   const bool is_drawn = named->recipe.fitting == Fitting::walls && grid != nullptr;
-  auto built = build_surface_map(is_drawn ? Map(outlines_of(*grid)) : map, settled.icp.max_pair_distance_m);
+  auto built = build_surface_map(is_drawn ? Map(outlines_of(*grid, {.thin_cells = 4})) : map, settled.icp.max_pair_distance_m);
   if (!built) return built.error();
   const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
   auto matcher = make_matcher(named->recipe, settled, map, surfaces);

@@ -20,6 +20,41 @@ constexpr double kSmallShare = 0.3;       // of an outline's width: what is no l
 
 using Points = std::vector<Eigen::Vector2d>;
 
+/// Where a wall a few cells thick has its middle.
+class Thickness {
+ public:
+  Thickness(const OccupancyGrid& grid, int most_cells) : grid_(grid), most_cells_(most_cells) {}
+
+  /// In: the middle of an outline's cell, and whether the wall runs along x. Out: the same, moved across the
+  /// wall to the middle of its cells by their occupancy; not moved where the wall is thicker than walls are.
+  Eigen::Vector2d middle(const Eigen::Vector2d& at, bool is_along_x) const {
+    if (most_cells_ < 2) return at;
+    const Cell cell{static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y()))};
+    double weight = 0.0;
+    double moved = 0.0;
+    int cells = 0;
+    const auto add = [&](int by) {
+      const Cell next = is_along_x ? Cell{cell.x, cell.y + by} : Cell{cell.x + by, cell.y};
+      if (!grid_.is_occupied(next)) return false;
+      weight += grid_.at(next);
+      moved += static_cast<double>(grid_.at(next)) * by;
+      ++cells;
+      return true;
+    };
+    for (int by = 0; by <= most_cells_ && add(by); ++by) {
+    }
+    for (int by = -1; by >= -most_cells_ && add(by); --by) {
+    }
+    if (cells == 0 || cells > most_cells_) return at;
+    moved /= weight;
+    return is_along_x ? Eigen::Vector2d(at.x(), at.y() + moved) : Eigen::Vector2d(at.x() + moved, at.y());
+  }
+
+ private:
+  const OccupancyGrid& grid_;
+  int most_cells_;
+};
+
 std::size_t farthest_from(const Points& loop, const Eigen::Vector2d& place) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < loop.size(); ++i)
@@ -38,10 +73,14 @@ void begin_at_corner(Points& loop) {
 
 /// The line through the middles of a piece of a loop. Those at its ends belong to two pieces; a piece that is
 /// long enough does without.
-PrincipalLine line_of(const Points& loop, std::size_t first, std::size_t last) {
+PrincipalLine line_of(const Points& loop, std::size_t first, std::size_t last, const Thickness& thickness) {
   const std::size_t spare = last - first >= 6 ? 1 : 0;
+  const Eigen::Vector2d way = (loop[last] - loop[first]).cwiseAbs();
   PointMoments sums;
-  for (std::size_t i = first + spare; i <= last - spare; ++i) sums.add(loop[i].x(), loop[i].y());
+  for (std::size_t i = first + spare; i <= last - spare; ++i) {
+    const Eigen::Vector2d at = thickness.middle(loop[i], way.x() >= way.y());
+    sums.add(at.x(), at.y());
+  }
   return principal_line(sums);
 }
 
@@ -55,7 +94,7 @@ Eigen::Vector2d meeting(const PrincipalLine& before, const PrincipalLine& after,
 }
 
 /// An outline's corners in cells; the first is there again at the end.
-Points straightened(Points& loop, double straight_cells, SplitScratch& scratch) {
+Points straightened(Points& loop, double straight_cells, const Thickness& thickness, SplitScratch& scratch) {
   if (loop.size() == 1) {
     const Eigen::Vector2d& at = loop.front();
     const Eigen::Vector2d x(0.5, 0.0);
@@ -68,7 +107,8 @@ Points straightened(Points& loop, double straight_cells, SplitScratch& scratch) 
   split(loop, {.epsilon_m = std::min(straight_cells, kSmallShare * width)}, scratch, cuts);
   std::vector<PrincipalLine> lines;
   lines.reserve(cuts.size());
-  for (std::size_t i = 1; i < cuts.size(); ++i) lines.push_back(line_of(loop, cuts[i - 1], cuts[i]));
+  for (std::size_t i = 1; i < cuts.size(); ++i)
+    lines.push_back(line_of(loop, cuts[i - 1], cuts[i], thickness));
   Points corners;
   corners.reserve(cuts.size() + 1);
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -87,13 +127,14 @@ void describe(Fields& fields, GridOutlinesConfig& config) {
 
 FloorPlan outlines_of(const OccupancyGrid& grid, const GridOutlinesConfig& config) {
   const double straight_cells = std::max(config.straight_cells, config.straight_least_m / grid.resolution_m);
+  const Thickness thickness(grid, config.thin_cells);
   FloorPlan plan;
   SplitScratch scratch;
   Points loop;
   for (const std::vector<Cell>& cells : find_cell_loops(grid)) {
     loop.clear();
     for (const Cell& cell : cells) loop.emplace_back(cell.x + 0.5, cell.y + 0.5);
-    Points corners = straightened(loop, straight_cells, scratch);
+    Points corners = straightened(loop, straight_cells, thickness, scratch);
     for (Eigen::Vector2d& corner : corners) corner = grid.map_from_grid * (grid.resolution_m * corner);
     plan.walls.push_back(std::move(corners));
   }

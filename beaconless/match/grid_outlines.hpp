@@ -9,7 +9,8 @@ namespace beaconless {
 
 /// How far the middles of cells may stray from a wall that is straight.
 struct GridOutlinesConfig {
-  double straight_cells = 1.5;     ///< a straight wall's cells stray by 1 from the line through two of them
+  double straight_cells = 1.5;  ///< a straight wall's cells stray by 1 from the line through two of them
+  int thin_cells = 0;  ///< walls of no more cells are lines through the middle of them; 0: all have two sides
   double straight_least_m = 0.04;  ///< … and by the noise of the laser that drew a finer grid
 };
 
