@@ -73,9 +73,9 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
     walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m()});
   if (walls_.empty()) return;
 
-  const FloorPlan::Bounds bounds = plan.bounds();
-  low_ = bounds.low.array() - reach_m_;
-  const Eigen::Vector2d extent = bounds.high.array() + reach_m_ - low_.array();
+  bounds_ = plan.bounds();
+  low_ = bounds_.low.array() - reach_m_;
+  const Eigen::Vector2d extent = bounds_.high.array() + reach_m_ - low_.array();
   cell_m_ = std::max({cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells),
                       std::sqrt(area_of_reach(segments, reach_m_) / kMaxVisits)});
   cells_per_m_ = 1.0 / cell_m_;
