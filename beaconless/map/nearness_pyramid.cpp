@@ -29,9 +29,12 @@ std::uint8_t nearness(const std::optional<SurfacePoint>& surface, double truncat
 
 NearnessPyramid::NearnessPyramid(const SurfaceMap& map, double cell_m, double truncate_m) : cell_m_(cell_m) {
   const FloorPlan::Bounds bounds = bounds_of(map);
-  low_ = bounds.low.array() - truncate_m;
-  const Eigen::Vector2d extent = bounds.high.array() + truncate_m - low_.array();
-  cell_m_ = std::max(cell_m_, std::sqrt(extent.x() * extent.y() / kMaxCells));
+  const Eigen::Vector2d inner = bounds.high - bounds.low;
+  cell_m_ = std::max(cell_m_,
+                     std::sqrt((inner.x() + 2.0 * truncate_m) * (inner.y() + 2.0 * truncate_m) / kMaxCells));
+  const double none_m = std::max(truncate_m, 2.0 * cell_m_);
+  low_ = bounds.low.array() - none_m;
+  const Eigen::Vector2d extent = inner.array() + 2.0 * none_m;
   width_ = static_cast<int>(std::ceil(extent.x() / cell_m_));
   height_ = static_cast<int>(std::ceil(extent.y() / cell_m_));
   std::vector<std::uint8_t> finest;
@@ -41,7 +44,7 @@ NearnessPyramid::NearnessPyramid(const SurfaceMap& map, double cell_m, double tr
         for (int y = 0; y < height_; ++y)
           for (int x = 0; x < width_; ++x)
             finest.push_back(
-                nearness(index.nearest(low_ + cell_m_ * Eigen::Vector2d(x + 0.5, y + 0.5)), truncate_m));
+                nearness(index.nearest(low_ + cell_m_ * Eigen::Vector2d(x + 0.5, y + 0.5)), none_m));
       },
       map);
   for (int level = 0; level < kLevels; ++level)

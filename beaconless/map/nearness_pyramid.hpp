@@ -19,10 +19,10 @@ namespace beaconless {
 /// A cell holds kOnSurface where its middle is on a surface, 0 where every surface is `truncate_m` away or
 /// further, and falls with the square of the distance between. There is a block at every cell, not only at
 /// multiples of its size; blocks a block's width apart lie side by side, so that a tile of them is read at
-/// once. Frame: map, cells along its axes. Cost: built in a look-up and three bytes or so a cell; cells are
-/// made larger where the surfaces would need more than kMaxCells. Source: Hess et al., "Real-Time Loop
-/// Closure in 2D LIDAR SLAM", ICRA 2016, V-B (a pre-computed grid a level). Differs: levels are four times
-/// as coarse as the one before, and sorted by phase.
+/// once. Frame: map, cells along its axes. Cost: built in a look-up and four bytes or so a cell; cells are
+/// made larger where the surfaces would need more than kMaxCells, and `truncate_m` is no less than two.
+/// Source: Hess et al., "Real-Time Loop Closure in 2D LIDAR SLAM", ICRA 2016, V-B (a pre-computed grid a
+/// level). Differs: levels are four times as coarse as the one before, and sorted by phase.
 class NearnessPyramid {
  public:
   static constexpr int kOnSurface = 255;
@@ -31,7 +31,7 @@ class NearnessPyramid {
   static constexpr int kTileRows = 4;
   static constexpr double kMaxCells = 4e6;
 
-  explicit NearnessPyramid(const SurfaceMap& map, double cell_m = 0.05, double truncate_m = 0.3);
+  explicit NearnessPyramid(const SurfaceMap& map, double cell_m = 0.05, double truncate_m = 0.2);
 
   double cell_m() const { return cell_m_; }
   const Eigen::Vector2d& low() const { return low_; }  ///< the corner of cell (0, 0)

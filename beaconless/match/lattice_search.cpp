@@ -2,16 +2,13 @@
 #include "beaconless/match/lattice_search.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <tuple>
-#include <utility>
 
 #include "beaconless/geometry/angle.hpp"
 #include "beaconless/map/grid_traversal.hpp"
+#include "beaconless/match/tile_sums.hpp"
 
 namespace beaconless {
 namespace {
@@ -28,38 +25,6 @@ static_assert(kFan <= Pyramid::kTileRows && kFan <= Pyramid::kTileColumns);
 bool is_after(const Block& a, const Block& b) {
   return std::tuple(a.cost, -a.level, a.heading, a.y, a.x) >
          std::tuple(b.cost, -b.level, b.heading, b.y, b.x);
-}
-
-using Words = std::uint16_t __attribute__((vector_size(Pyramid::kTileColumns)));
-
-/// For every block of a tile the sum of its nearness to all points.
-struct TileSums {
-  std::array<Words, Pyramid::kTileRows> even{};
-  std::array<Words, Pyramid::kTileRows> odd{};
-
-  int at(int column, int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    return (column % 2 == 0 ? even[r] : odd[r])[column / 2];
-  }
-};
-
-TileSums sum_tile(const Pyramid& map, int level, std::span<const Cell> cells, int x, int y) {
-  constexpr int kByte = 8;
-  constexpr std::uint16_t kLow = 0xff;
-  const std::size_t pitch = map.pitch(level);
-  TileSums sums;
-  for (const Cell& cell : cells) {
-    const std::uint8_t* from = map.tile(level, {cell.x + x, cell.y + y});
-    if (from == nullptr) continue;
-    for (std::size_t row = 0; row < Pyramid::kTileRows; ++row, from += pitch) {
-      Words bytes;
-      std::memcpy(&bytes, from, sizeof(bytes));
-      sums.even[row] += bytes & kLow;
-      sums.odd[row] += bytes >> kByte;
-    }
-  }
-  if constexpr (std::endian::native == std::endian::big) std::swap(sums.even, sums.odd);
-  return sums;
 }
 
 /// One search: the lattice, and what is known of it so far.
@@ -159,7 +124,7 @@ class Search {
   /// Calls visit(block) for every block of a tile that begins in the lattice.
   template <class Visit>
   void for_tile(int level, int heading, int x, int y, int columns, int rows, const Visit& visit) const {
-    const TileSums sums = sum_tile(map_, level, cells(heading), x, y);
+    const TileSums sums = sum_tiles(map_, level, cells(heading), x, y);
     const int step = Pyramid::block_cells(level);
     const int turned = turn_penalty(heading);
     for (int row = 0; row < rows && y + row * step < rows_; ++row)
@@ -238,7 +203,7 @@ void search_lattice(std::span<const Eigen::Vector2d> points, const NearnessPyram
                     std::vector<StartPose>& found) {
   found.clear();
   if (points.empty()) return;
-  assert(points.size() <= kMostPoints);
+  assert(points.size() <= TileSums::kMostCells);
   Search(points.size(), map, lattice, wish, scratch, found).run(points);
 }
 

@@ -18,7 +18,7 @@ struct LocalSearchConfig {
   double cell_m = 0.05;  ///< distance between starts, and size of the cells of the map that is searched in
   double step_deg = 2.5;
   int points = 80;            ///< of the scan, evenly taken
-  double truncate_m = 0.3;    ///< a point further from every wall than this says no more than "not here"
+  double truncate_m = 0.2;    ///< a point further from every wall than this says no more than "not here"
   double far_penalty = 0.05;  ///< cost of a start at the window's edge, as a share of the worst cost
   int lost_stride = 4;        ///< a lost robot searches a wider window with every so many scans
   int keep = 4;               ///< best starts to return

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "beaconless/core/rng.hpp"
+#include "beaconless/map/grid_traversal.hpp"
 #include "beaconless/map/rasterize.hpp"
 
 namespace beaconless {
@@ -98,6 +99,11 @@ TEST(NearnessPyramid, HugePlansGetLargerCellsInsteadOfMoreMemory) {
   const NearnessPyramid map{SurfaceMap(WallIndex(plan)), kCell_m, kTruncate_m};
   EXPECT_GT(map.cell_m(), 0.4);
   EXPECT_LT(map.bytes(), 30e6);
+  // A wall that lies between the middles of cells is seen even so.
+  for (int x = 1; x < 1000; x += 111) {
+    const Cell cell = cell_of((Eigen::Vector2d(x, 0.0) - map.low()) / map.cell_m());
+    EXPECT_GT(block_at(map, 0, cell), 200);
+  }
 }
 
 }  // namespace
