@@ -81,11 +81,12 @@ TEST(LatticeSearch, FindsWhatTryingEveryPoseFinds) {
     const auto seen = test::points_of(Scan::make(test::sweep(walls, truth, 0.01, rng)).value());
     std::vector<Eigen::Vector2d> points;
     for (std::size_t k = 0; k < seen.size(); k += 23) points.push_back(seen[k]);
-    // Windows of either first level, oblong ones, and ones that reach out of the map.
+    // Windows of one block and of several tiles, oblong ones, and ones that reach out of the map.
+    const bool is_wide = i % 2 == 1;
     const PoseLattice lattice{.middle = truth * Pose2{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), 0.3},
-                              .moves_x = i % 2 == 0 ? 9 : 40,
-                              .moves_y = i % 3 == 0 ? 6 : 13,
-                              .turns = 5,
+                              .moves_x = is_wide ? 140 : 9,
+                              .moves_y = i % 3 == 0 ? 6 : 40,
+                              .turns = is_wide ? 1 : 5,
                               .step_rad = 0.06,
                               .far_penalty = i % 4 == 0 ? 0.0 : 0.05};
     const LatticeWish wish{.keep = 1 + i % 7,
