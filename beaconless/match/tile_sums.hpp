@@ -12,16 +12,15 @@ namespace beaconless {
 
 /// For every block of a tile the sum of its nearness at several cells.
 struct TileSums {
-  using Words = std::uint16_t __attribute__((vector_size(NearnessPyramid::kTileColumns)));
-
   static constexpr std::size_t kMostCells = 257;  ///< sums of so many bytes fit into 16 bits
 
-  std::array<Words, NearnessPyramid::kTileRows> even{};  ///< of the columns 0, 2, 4 …, a row each
-  std::array<Words, NearnessPyramid::kTileRows> odd{};
+  using HalfRow = std::array<std::uint16_t, NearnessPyramid::kTileColumns / 2>;
+  std::array<HalfRow, NearnessPyramid::kTileRows> even{};  ///< of the columns 0, 2, 4 …
+  std::array<HalfRow, NearnessPyramid::kTileRows> odd{};
 
   int at(int column, int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    return (column % 2 == 0 ? even[r] : odd[r])[column / 2];
+    const auto& half = column % 2 == 0 ? even : odd;
+    return half[static_cast<std::size_t>(row)][static_cast<std::size_t>(column) / 2];
   }
 };
 
