@@ -84,18 +84,25 @@ BENCHMARK_CAPTURE(match_icp_grid, welsch, {.loss = LossKind::welsch})->Unit(benc
 BENCHMARK_CAPTURE(match_icp_grid, geman_mcclure, {.loss = LossKind::geman_mcclure})
     ->Unit(benchmark::kMicrosecond);
 
-template <SurfaceIndex Index>
 void search_around_guess(benchmark::State& state) {
   const Scene& from = scene();
-  const Index& map = index_of<Index>(from);
+  const NearnessPyramid map{SurfaceMap(from.walls)};
+  LocalSearchConfig config;
+  config.window_m = 0.1 * static_cast<double>(state.range(0));
+  config.window_deg = static_cast<double>(state.range(1));
+  LocalSearchScratch scratch;
+  std::vector<StartPose> starts;
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(search_around(from.points[i], map, from.guesses[i], {}));
+    search_around(from.points[i], map, from.guesses[i], config, scratch, starts);
     i = (i + 1) % Scene::kScans;
   }
 }
-BENCHMARK(search_around_guess<WallIndex>)->Unit(benchmark::kMicrosecond);
-BENCHMARK(search_around_guess<CellIndex>)->Unit(benchmark::kMicrosecond);
+BENCHMARK(search_around_guess)
+    ->ArgNames({"window_dm", "window_deg"})
+    ->Args({12, 50})
+    ->Args({30, 180})
+    ->Unit(benchmark::kMicrosecond);
 
 template <SurfaceIndex Index>
 void nearest(benchmark::State& state) {
@@ -115,6 +122,12 @@ void build_wall_index(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(WallIndex(scene().drive.plan));
 }
 BENCHMARK(build_wall_index)->Unit(benchmark::kMillisecond);
+
+void build_nearness_pyramid(benchmark::State& state) {
+  const SurfaceMap walls(scene().walls);
+  for (auto _ : state) benchmark::DoNotOptimize(NearnessPyramid(walls));
+}
+BENCHMARK(build_nearness_pyramid)->Unit(benchmark::kMillisecond);
 
 void build_cell_index(benchmark::State& state) {
   const OccupancyGrid grid = bench::grid_of(scene().drive, 0.001 * static_cast<double>(state.range(0)));

@@ -13,6 +13,7 @@ namespace beaconless {
 namespace {
 
 constexpr double kClearlyBetter = 0.05;  // in misfit, before another start is preferred to the prediction
+constexpr double kBetter = 0.01;         // the same, to one that the search found first
 constexpr double kJumpSigma =
     3.0;  // of the prediction; a larger correction is a jump, if also larger than the next two
 constexpr double kJump_m = 0.25;
@@ -59,6 +60,7 @@ TrackingLocalizer::TrackingLocalizer(const LocalizerConfig& config, std::shared_
     : config_(config),
       map_(std::move(map)),
       matcher_(std::move(matcher)),
+      nearness_(*map_, config.search.cell_m, config.search.truncate_m),
       laser_from_base_(config.base_from_laser.inverse()),
       motion_(config.motion),
       odometry_(config.odometry),
@@ -101,7 +103,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   // 4. Where that fit is hard to believe, fit from other starts too and take the best; where the method gets
   //    nowhere from any of them, let the whole scan tell.
   if (is_worth_searching(match, prediction)) {
-    const std::vector<StartPose> starts = starts_around(prediction);
+    const std::span<const StartPose> starts = starts_around(prediction);
     match = best_of(starts, match, prediction, [&](const Pose2& start) { return fit_from(start); });
     if (first_scan_ || !reason_against(match, prediction).empty())
       whole_scan = fit_whole_scan(starts, prediction);
@@ -259,21 +261,19 @@ bool TrackingLocalizer::is_jump(const MatchResult& match, const Prediction& pred
          std::abs(correction.theta_rad) > std::max(kJump_rad, slack_rad);
 }
 
-std::vector<StartPose> TrackingLocalizer::starts_around(const Prediction& prediction) const {
+std::span<const StartPose> TrackingLocalizer::starts_around(const Prediction& prediction) {
   LocalSearchConfig window = config_.search;
   if (health_.lost()) {
     window.window_m *= kLostWindow;
-    window.step_m *= 1.5;
     window.window_deg = 180.0;
-    window.step_deg *= 2.0;
   } else {
     const double slack_m =
         2.0 * std::sqrt(std::max(0.0, prediction.covariance.topLeftCorner<2, 2>().trace()));
-    const double wider = std::clamp(slack_m / std::max(window.window_m, 1e-3), 1.0, kLostWindow);
-    window.window_m *= wider;
-    window.step_m *= std::sqrt(wider);
+    window.window_m = std::clamp(slack_m, window.window_m, kLostWindow * window.window_m);
   }
-  return search_around(points_, *map_, prediction.map_from_base * config_.base_from_laser, window);
+  search_around(points_, nearness_, prediction.map_from_base * config_.base_from_laser, window,
+                search_scratch_, starts_);
+  return starts_;
 }
 
 template <class Fit>
@@ -288,7 +288,7 @@ MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const 
   for (const StartPose& start : starts) {
     const MatchResult other = fit(start.map_from_laser);
     if (!other.usable() || (!anywhere && is_jump(other, prediction))) continue;
-    if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : 0.0)) continue;
+    if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : kBetter)) continue;
     best = other;
     best_is_first = false;
   }

@@ -10,6 +10,7 @@
 #include "beaconless/localize/localizer.hpp"
 #include "beaconless/localize/localizer_config.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
+#include "beaconless/map/nearness_pyramid.hpp"
 #include "beaconless/map/surface_map.hpp"
 #include "beaconless/match/map_fit.hpp"
 #include "beaconless/track/odometry_track.hpp"
@@ -50,7 +51,7 @@ class TrackingLocalizer final : public Localizer {
   std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
   std::string_view reason_against_features(const MatchResult& match, const Prediction& prediction) const;
   std::string_view reason_against(const MatchResult& match, const Prediction& prediction) const;
-  std::vector<StartPose> starts_around(const Prediction& prediction) const;
+  std::span<const StartPose> starts_around(const Prediction& prediction);
   template <class Fit>
   MatchResult best_of(std::span<const StartPose> starts, const MatchResult& first,
                       const Prediction& prediction, const Fit& fit);
@@ -63,6 +64,7 @@ class TrackingLocalizer final : public Localizer {
   LocalizerConfig config_;
   std::shared_ptr<const SurfaceMap> map_;
   std::unique_ptr<ScanMatcher> matcher_;
+  NearnessPyramid nearness_;
   Pose2 laser_from_base_;
   MotionFilter motion_;
   OdometryTrack odometry_;
@@ -70,6 +72,8 @@ class TrackingLocalizer final : public Localizer {
   std::optional<Stamp> last_scan_;
   Health health_;
   IcpScratch scratch_;
+  LocalSearchScratch search_scratch_;
+  std::vector<StartPose> starts_;
   std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
   std::vector<double> times_s_;          // of the points, after the stamp
   PoseEstimate last_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "beaconless/map/nearest_cells.hpp"
 
 namespace beaconless {
@@ -89,6 +91,14 @@ CellIndex::CellIndex(const OccupancyGrid& grid, double reach_m)
     surfaces_.push_back({(resolution_m_ * line.middle).cast<float>(), line.along.cast<float>()});
   }
   nearest_ = nearest_seeds(width_, height_, seeds, reach_m_ / resolution_m_);
+}
+
+FloorPlan::Bounds CellIndex::bounds() const {
+  if (surfaces_.empty()) return {};
+  const double half = 0.5 * std::sqrt(2.0) * resolution_m_;
+  Eigen::AlignedBox2d box;
+  for (const Surface& surface : surfaces_) box.extend(map_from_grid_ * surface.point.cast<double>().eval());
+  return {box.min().array() - half, box.max().array() + half};
 }
 
 std::optional<SurfacePoint> CellIndex::nearest(const Eigen::Vector2d& point_map) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "beaconless/map/floor_plan.hpp"
 #include "beaconless/map/occupancy_grid.hpp"
 #include "beaconless/map/surface_point.hpp"
 
@@ -25,6 +26,7 @@ class CellIndex {
   std::optional<SurfacePoint> nearest(const Eigen::Vector2d& point_map) const;
 
   double reach_m() const { return reach_m_; }
+  FloorPlan::Bounds bounds() const;  ///< of the surface cells; both zero where there are none
   std::size_t surface_count() const { return surfaces_.size(); }
 
  private:

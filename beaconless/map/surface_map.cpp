@@ -19,4 +19,8 @@ Result<SurfaceMap> build_surface_map(const Map& map, double reach_m) {
   return SurfaceMap(std::move(cells));
 }
 
+FloorPlan::Bounds bounds_of(const SurfaceMap& map) {
+  return std::visit([](const auto& index) -> FloorPlan::Bounds { return index.bounds(); }, map);
+}
+
 }  // namespace beaconless

@@ -17,4 +17,7 @@ using SurfaceMap = std::variant<WallIndex, CellIndex>;
 /// seconds for maps of many million cells.
 Result<SurfaceMap> build_surface_map(const Map& map, double reach_m);
 
+/// The box around a map's surfaces, along the axes of the map frame.
+FloorPlan::Bounds bounds_of(const SurfaceMap& map);
+
 }  // namespace beaconless

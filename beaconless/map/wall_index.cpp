@@ -117,7 +117,8 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
     : reach_m_(reach_m), cell_m_(cell_m) {
   const std::vector<Segment2> segments = distinct(plan.segments());
   if (segments.empty()) return;
-  const Tiling tiling = tiling_of(plan.bounds(), segments, reach_m_, kTile * cell_m_);
+  bounds_ = plan.bounds();
+  const Tiling tiling = tiling_of(bounds_, segments, reach_m_, kTile * cell_m_);
   low_ = tiling.low;
   cell_m_ = tiling.side_m / kTile;
   cells_per_m_ = 1.0 / cell_m_;

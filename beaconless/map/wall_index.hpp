@@ -48,6 +48,7 @@ class WallIndex {
   const Wall& wall(std::uint32_t id) const { return walls_[id]; }
 
   double reach_m() const { return reach_m_; }
+  const FloorPlan::Bounds& bounds() const { return bounds_; }  ///< of the walls
   std::size_t wall_count() const { return walls_.size(); }
   /// What it holds on the heap.
   std::size_t memory_bytes() const;
@@ -59,6 +60,7 @@ class WallIndex {
   double reach_m_ = 0.0;
   double cell_m_ = 0.0;
   double cells_per_m_ = 0.0;
+  FloorPlan::Bounds bounds_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   int columns_ = 0;  // of cells
   int rows_ = 0;
