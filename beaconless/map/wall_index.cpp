@@ -111,6 +111,13 @@ std::vector<Segment2> distinct(std::vector<Segment2> walls) {
   return walls;
 }
 
+/// Every cell of a wall shuts out lines, so that what is left of where it lies falls with their number; a
+/// short piece is somewhere in its cells.
+double variance_of_read(double cell_m, double length_m) {
+  const double sigma_m = std::min(cell_m / std::sqrt(12.0), cell_m * cell_m / length_m);
+  return sigma_m * sigma_m;
+}
+
 }  // namespace
 
 WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
@@ -127,7 +134,8 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   tile_columns_ = static_cast<std::size_t>(tiling.columns);
   walls_.reserve(segments.size());
   for (const Segment2& segment : segments)
-    walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m()});
+    walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m(),
+                      variance_of_read(plan.cell_m, segment.length_m())});
 
   // Of the walls within reach of any point of a tile, those that can be nearest somewhere in each cell.
   const WallsOfTiles within_reach(segments, reach_m_ + 0.5 * std::numbers::sqrt2 * tiling.side_m, tiling);

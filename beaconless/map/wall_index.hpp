@@ -29,6 +29,7 @@ class WallIndex {
     Eigen::Vector2d a;
     Eigen::Vector2d along;  ///< unit
     double length_m;
+    double variance_m2 = 0.0;  ///< of where it lies across, as a plan that was read from a grid leaves it
   };
 
   std::optional<SurfacePoint> nearest(const Eigen::Vector2d& point_map) const;

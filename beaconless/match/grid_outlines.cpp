@@ -241,6 +241,7 @@ FloorPlan once_each(const FloorPlan& plan, double near_m) {
     return true;
   };
   FloorPlan once;
+  once.cell_m = plan.cell_m;
   for (std::uint32_t id = 0; id < index.wall_count(); ++id) {
     const WallIndex::Wall& piece = index.wall(id);
     const Eigen::Vector2d middle = piece.a + 0.5 * piece.length_m * piece.along;
@@ -268,6 +269,7 @@ FloorPlan outlines_of(const OccupancyGrid& grid, const GridOutlinesConfig& confi
   const double straight_cells = std::max(config.straight_cells, config.straight_least_m / grid.resolution_m);
   const Thickness thickness(grid, config.thin_cells);
   FloorPlan plan;
+  if (thickness.is_looked_at()) plan.cell_m = grid.resolution_m;
   SplitScratch scratch;
   Points loop;
   for (const std::vector<Cell>& cells : find_cell_loops(grid)) {

@@ -101,16 +101,16 @@ class Knowledge {
         map_variance_(config.map_sigma_m * config.map_sigma_m),
         is_the_same_(per_m2_ == 0.0 && footprint2_ == 0.0 && map_variance_ == 0.0) {}
 
-  /// Of one beam, or of several in lanes. Not returned: how lanes are depends on the processor.
+  /// Of one beam, or of several on one wall in lanes. Not returned: how lanes are depends on the processor.
   template <class Number>
-  __attribute__((always_inline)) void tell(const Number& range_m, const Number& across,
+  __attribute__((always_inline)) void tell(const Number& range_m, const Number& across, double wall_variance,
                                            Number& information) const {
     information = 1.0 / own_variance_ + Number{};
-    if (is_the_same_) return;
+    if (is_the_same_ && wall_variance == 0.0) return;
     const Number inverse_cos2 = 1.0 / (across * across);
     const Number range2 = range_m * range_m;
     information = 1.0 / (own_variance_ + per_m2_ * range2 + footprint2_ * range2 * (inverse_cos2 - 1.0) +
-                         map_variance_ * inverse_cos2);
+                         (map_variance_ + wall_variance) * inverse_cos2);
   }
 
  private:
@@ -173,6 +173,7 @@ struct Columns {
 struct OnMap {
   double fit = 0.0;
   std::int64_t count = 0;
+  double wall_variance = 0.0;  // of all beams that hit a wall, summed up
 };
 
 namespace two_lanes {
@@ -223,7 +224,8 @@ WallPairing pair_with_walls(std::span<const Eigen::Vector2d> points, const WallI
 #endif
   beams.fill_up();
   const double all = static_cast<double>(std::max<std::size_t>(points.size(), 1));
-  return {static_cast<double>(on_map.count) / all, 1.0 - on_map.fit / all};
+  return {static_cast<double>(on_map.count) / all, 1.0 - on_map.fit / all,
+          on_map.wall_variance / static_cast<double>(std::max<std::size_t>(beams.count, 1))};
 }
 
 }  // namespace beaconless

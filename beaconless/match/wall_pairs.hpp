@@ -15,6 +15,7 @@ namespace beaconless {
 struct WallPairing {
   double on_map_ratio = 0.0;  ///< see MatchResult
   double misfit = 1.0;
+  double wall_variance_m2 = 0.0;  ///< of the walls that were hit, the mean over beams
 };
 
 /// Pairs every beam with the wall that it hits from a pose; `beams` then holds those that hit one.

@@ -127,7 +127,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const Fit fit = descend(scratch.beams, gate_m / (config.cut_sigma * noise_m), config, loop);
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
     result.map_from_laser = before * fit.step;
-    result.covariance = covariance_of(fit, seen, before, believed.map_sigma_m);
+    result.covariance = covariance_of(fit, seen, before,
+                                      std::hypot(believed.map_sigma_m, std::sqrt(pairing.wall_variance_m2)));
     result.rank = 3 - seen.weak_count;
     const Eigen::Vector3d weak = seen.directions.col(0).normalized();
     result.weak_direction << before.rotation() * weak.head<2>(), weak.z();
