@@ -11,7 +11,7 @@ using namespace beaconless;
 void localize(const char* drive, const char* hall, const Pose2& start, const char* out) {
   const Map map = io::read_map(hall).value();
   const auto recording = io::open_recording(drive).value();
-  auto localizer = make_localizer({.method = "icp-full"}, map).value();
+  auto localizer = make_localizer({}, map).value();
   localizer->start_at(start);
   io::TumWriter trajectory{out};
   for (const Event& event : recording)

@@ -23,7 +23,7 @@ namespace beaconless {
 
 /// Everything that shapes a localizer.
 struct LocalizerConfig {
-  std::string method = "icp-full";
+  std::string method = "walls";
   Pose2 base_from_laser;  ///< where the laser sits on the robot
   bool deskew = true;     ///< see each beam from where the laser was, where the source tells beams' times
   WallsConfig walls;

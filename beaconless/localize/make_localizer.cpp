@@ -17,6 +17,7 @@
 namespace beaconless {
 namespace {
 
+constexpr int kThinWall_cells = 4;   // a wall of a grid that has more of them has two sides
 constexpr int kLeastPoints = 8;      // of the crosses of two keypoints
 constexpr double kDrawnArm_m = 0.4;  // longer than those of a scan, which may be off by the difference
 
@@ -84,6 +85,7 @@ LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
   const bool is_chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
   if (!is_chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid->resolution_m);
   if (config.hector.on_map_m == HectorConfig{}.on_map_m) config.hector.on_map_m = config.icp.on_map_m;
+  if (config.walls.on_map_m == WallsConfig{}.on_map_m) config.walls.on_map_m = config.icp.on_map_m;
   return config;
 }
 
@@ -140,12 +142,18 @@ Made make_hector(const Recipe& recipe, const LocalizerConfig& config, const Map&
   return {std::unique_ptr<ScanMatcher>(std::make_unique<PointsMatcher>(std::move(points), std::move(fit)))};
 }
 
+/// The walls of a map: those of a plan, or those that can be read from a grid.
+Map as_walls(const Map& map) {
+  const auto* grid = std::get_if<OccupancyGrid>(&map);
+  if (grid == nullptr) return map;
+  FloorPlan plan = outlines_of(*grid, {.thin_cells = kThinWall_cells});
+  return plan.walls.empty() ? map : Map(std::move(plan));
+}
+
 Made make_walls(const LocalizerConfig& config, const std::shared_ptr<const SurfaceMap>& surfaces) {
-  const auto* walls = std::get_if<WallIndex>(surfaces.get());
-  if (walls == nullptr)
-    return Error{"method", "walls needs a floor plan, and the map is a grid", "use hector-full or icp-full"};
   return {std::unique_ptr<ScanMatcher>(std::make_unique<WallsMatcher>(
-      std::shared_ptr<const WallIndex>(surfaces, walls), config.walls, config.icp))};
+      std::shared_ptr<const WallIndex>(surfaces, &std::get<WallIndex>(*surfaces)), config.walls,
+      config.icp))};
 }
 
 Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
@@ -207,9 +215,8 @@ Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config,
   if (named == recipes().end()) return unknown_method(config.method);
   if (auto checked = check_config(config); !checked) return checked.error();
   const LocalizerConfig settled = for_map(config, map);
-  const auto* grid = std::get_if<OccupancyGrid>(&map);
-  const bool is_drawn = named->recipe.fitting == Fitting::walls && grid != nullptr;
-  auto built = build_surface_map(is_drawn ? Map(outlines_of(*grid, {.thin_cells = 4})) : map, settled.icp.max_pair_distance_m);
+  auto built = build_surface_map(named->recipe.fitting == Fitting::walls ? as_walls(map) : map,
+                                 settled.icp.max_pair_distance_m);
   if (!built) return built.error();
   const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
   auto matcher = make_matcher(named->recipe, settled, map, surfaces);
