@@ -37,6 +37,12 @@ constexpr double kUnsure_rad = 1e-3;
 const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
 const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
 
+constexpr double kElsewhere_m = 0.2;
+constexpr double kElsewhere_rad = radians(5.0);
+constexpr double kAsGood = 1.4;  // times the misfit, and …
+constexpr double kAsGoodMore = 0.02;
+constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
+
 constexpr std::string_view kOpenDirection =
     "the walls in view leave a direction open, which is held at the prediction";
 
@@ -45,6 +51,17 @@ std::string_view reason_of(Status status, bool was_lost) {
   if (status == Status::lost) return "the scan does not fit the map here";
   return was_lost ? "a place that fits was found; more scans must agree"
                   : "less of the scan lies on the map than is usual";
+}
+
+/// Whether two fits are two places.
+bool is_elsewhere(const MatchResult& a, const MatchResult& b) {
+  return distance_m(a.map_from_laser, b.map_from_laser) > kElsewhere_m ||
+         heading_difference_rad(a.map_from_laser, b.map_from_laser) > kElsewhere_rad;
+}
+
+/// Whether a scan fits one place about as well as another, so that it cannot tell which it is.
+bool is_as_good(const MatchResult& a, const MatchResult& b) {
+  return a.misfit < kAsGood * b.misfit + kAsGoodMore;
 }
 
 /// Whether the motion so far no longer tells where the robot is.
@@ -71,6 +88,8 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   motion_.start_at(map_from_base);
   health_ = Health(config_.health);
   matcher_->forget();
+  rival_.reset();
+  last_scan_.reset();
   last_.map_from_base = map_from_base;
   started_ = true;
   first_scan_ = true;
@@ -97,6 +116,8 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
   // 2. What the laser saw.
   observe(*scan, guess, prediction);
+  const bool is_anywhere = first_scan_ || health_.lost();
+  const Pose2 before = last_.map_from_base * config_.base_from_laser;
   // 3. Fit it to the map from there.
   MatchResult match = fit_from(guess);
   std::optional<MatchResult> whole_scan;
@@ -113,12 +134,17 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   }
   // 5. Where the fit tells another motion during the sweep, see the sweep by that, once.
   if (reason_against(match, prediction).empty()) match = fit_by_new_motion(match, prediction, *scan);
-  // 6. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
+  // 6. Whether another place fits as well: looked for where the robot could be anywhere, and then followed.
+  if (is_anywhere)
+    look_for_rival(match);
+  else if (rival_)
+    follow_rival(match, *rival_ * before.inverse() * match.map_from_laser);
+  // 7. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
   std::string_view doubt = reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
-  last_ = doubt.empty() ? accept(match, prediction, *scan, matcher_->reservation(match))
-          : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
+  last_ = doubt.empty() ? accept(match, prediction, *scan, rival_ ? kRivalled : matcher_->reservation(match))
+          : whole_scan ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
   first_scan_ = false;
   last_scan_ = scan->stamp();
@@ -284,15 +310,33 @@ MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const 
   const bool anywhere = first_scan_ || health_.lost();
   MatchResult best = first;
   bool best_is_first = true;
+  tried_.assign(1, first);
   if (!anywhere && is_jump(first, prediction)) best.misfit = 1.0;
   for (const StartPose& start : starts) {
     const MatchResult other = fit(start.map_from_laser);
     if (!other.usable() || (!anywhere && is_jump(other, prediction))) continue;
+    tried_.push_back(other);
     if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : kBetter)) continue;
     best = other;
     best_is_first = false;
   }
   return best;
+}
+
+void TrackingLocalizer::look_for_rival(const MatchResult& taken) {
+  rival_.reset();
+  double least = 1.0;
+  for (const MatchResult& other : tried_) {
+    if (!other.usable() || !is_elsewhere(other, taken) || other.misfit > least) continue;
+    least = other.misfit;
+    if (is_as_good(other, taken)) rival_ = other.map_from_laser;
+  }
+}
+
+void TrackingLocalizer::follow_rival(const MatchResult& taken, const Pose2& predicted) {
+  const MatchResult rival = fit_from(predicted);
+  const bool is_one = rival.usable() && is_elsewhere(rival, taken) && is_as_good(rival, taken);
+  rival_ = is_one ? std::optional(rival.map_from_laser) : std::nullopt;
 }
 
 std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const StartPose> starts,

@@ -38,6 +38,8 @@ class TrackingLocalizer final : public Localizer {
  private:
   void observe(const Scan& scan, const Pose2& map_from_laser, const Prediction& prediction);
   MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
+  void look_for_rival(const MatchResult& taken);
+  void follow_rival(const MatchResult& taken, const Pose2& predicted);
   bool is_swept(const Scan& scan) const;
   ToldTwist motion_during(const Scan& scan, MotionFilter motion) const;
   std::optional<ToldTwist> told_by_sweep(const Scan& scan, const MatchResult& match,
@@ -68,7 +70,9 @@ class TrackingLocalizer final : public Localizer {
   Pose2 laser_from_base_;
   MotionFilter motion_;
   OdometryTrack odometry_;
-  std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
+  std::vector<MatchResult> tried_;  // by the last search
+  std::optional<Pose2> rival_;      // map_from_laser of another place that fits as well
+  std::optional<ToldTwist> bent_;   // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
   Health health_;
   IcpScratch scratch_;
