@@ -98,7 +98,7 @@ TEST_F(Localize, SummaryHasTheKeysThatOthersRead) {
             (std::set<std::string>{"method", "recording", "map", "scans", "status_counts", "reason_counts",
                                    "skipped_records", "update_us", "error"}));
   EXPECT_TRUE(summary["reason_counts"].empty());
-  EXPECT_EQ(summary["method"], "icp-full");
+  EXPECT_EQ(summary["method"], "walls");
   EXPECT_EQ(summary["scans"], kScans);
   EXPECT_EQ(summary["status_counts"], (nlohmann::json{{"ok", kScans}}));
   EXPECT_EQ(keys_of(summary["update_us"]), (std::set<std::string>{"median", "p99", "max"}));

@@ -63,7 +63,7 @@ TEST_F(Simulate, AMisspeltScenarioGetsAHint) {
 TEST_F(Simulate, DemoEndsWithAReport) {
   const Ran ran = run({"demo", "--out", folder.path("demo")});
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_THAT(ran.out, HasSubstr("480 scans by icp-full: 480 ok"));
+  EXPECT_THAT(ran.out, HasSubstr("480 scans by walls: 480 ok"));
   EXPECT_THAT(ran.out, HasSubstr(folder.path("demo/report.html")));
   EXPECT_THAT(folder.read("demo/report.html"), HasSubstr("</html>"));
 }
