@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "beaconless/features/split.hpp"
@@ -43,7 +44,8 @@ void begin_at_corner(Points& loop) {
 /// A straight piece of a loop.
 struct Piece {
   PrincipalLine line;
-  std::optional<ThinWall> wall;  // of which it is a part
+  std::span<const Eigen::Vector2d> middles;  // of the loop
+  std::optional<ThinWall> wall;              // of which it is a part
 };
 
 PrincipalLine principal_line_of(const ThinWall& wall) {
@@ -89,18 +91,18 @@ Piece piece_of(const Points& loop, std::size_t first, std::size_t last, const Th
         std::copy_if(columns.all.begin(), columns.all.end(), std::back_inserter(columns.usual),
                      [&](const WallColumn& column) { return column.cells == usual; });
         if (auto wall = thin.wall_of(columns.usual, is_along_x, columns.near))
-          return {principal_line_of(*wall), wall};
+          return {principal_line_of(*wall), {}, wall};
         for (const WallColumn& column : columns.all)
           if (column.cells <= usual + 1)
             sums.add(is_along_x ? column.along : column.across, is_along_x ? column.across : column.along);
         if (2.0 * sums.count > static_cast<double>(last - first + 1 - 2 * spare))
-          return {principal_line(sums), {}};
+          return {principal_line(sums), {}, {}};
         sums = {};
       }
     }
   }
   for (std::size_t i = first + spare; i <= last - spare; ++i) sums.add(loop[i].x(), loop[i].y());
-  return {principal_line(sums), {}};
+  return {principal_line(sums), {}, {}};
 }
 
 /// Where two pieces meet: where their lines cross, if that is near and they cross at an angle; else midway
@@ -126,6 +128,7 @@ Outline straightened(Points& loop, double straight_cells, const ThinWalls& thin,
     const Eigen::Vector2d y(0.0, 0.5);
     outline.corners = {at + x, at + y, at - x, at - y, at + x};
     outline.pieces.resize(4);
+    for (Piece& piece : outline.pieces) piece.middles = loop;
     return outline;
   }
   begin_at_corner(loop);
@@ -135,8 +138,10 @@ Outline straightened(Points& loop, double straight_cells, const ThinWalls& thin,
   Columns columns;
   std::vector<Piece>& pieces = outline.pieces;
   pieces.reserve(cuts.size());
-  for (std::size_t i = 1; i < cuts.size(); ++i)
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
     pieces.push_back(piece_of(loop, cuts[i - 1], cuts[i], thin, columns));
+    pieces.back().middles = std::span(loop).subspan(cuts[i - 1], cuts[i] - cuts[i - 1] + 1);
+  }
   Points& corners = outline.corners;
   corners.reserve(cuts.size() + 1);
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -166,7 +171,8 @@ FloorPlan outlines_of(const OccupancyGrid& grid, const GridOutlinesConfig& confi
     Outline outline = straightened(loop, straight_cells, thin, scratch);
     if (thin.are_looked_at())
       for (std::size_t i = 0; i < outline.pieces.size(); ++i)
-        once.add({outline.corners[i], outline.corners[i + 1]}, outline.pieces[i].wall);
+        once.add({outline.corners[i], outline.corners[i + 1]}, outline.pieces[i].middles,
+                 outline.pieces[i].wall);
     else
       plan.walls.push_back(std::move(outline.corners));
   }

@@ -7,8 +7,9 @@
 namespace beaconless {
 namespace {
 
-constexpr double kNear_cells = 0.75;  // a column's middle from where the wall is expected
-constexpr int kMostMissing = 1;       // columns in a row without a cell of the wall
+constexpr double kNear_cells = 0.75;   // a column's middle from where the wall is expected
+constexpr double kAside_cells = 0.25;  // a wall's cell from where it is expected
+constexpr int kMostMissing = 1;        // columns in a row without a cell of the wall
 constexpr int kMostRounds = 6;
 
 }  // namespace
@@ -53,13 +54,15 @@ std::optional<ThinWall> ThinWalls::wall_of(const std::vector<WallColumn>& column
 
 void ThinWalls::collect(const ThinWall& wall, std::vector<WallColumn>& columns) const {
   columns.clear();
-  // The cell where the wall is expected, or else the next one on the side to which it lies.
   const auto look = [&](double along) {
     const double expected = wall.line.across_at(along);
     const int column = static_cast<int>(std::floor(along));
     int across = static_cast<int>(std::floor(expected));
-    if (!is_occupied(column, across, wall.is_along_x)) across += expected - across < 0.5 ? -1 : 1;
-    if (!is_occupied(column, across, wall.is_along_x)) return false;
+    if (!is_occupied(column, across, wall.is_along_x)) {
+      across = static_cast<int>(
+          std::floor(expected - across < 0.5 ? expected - kAside_cells : expected + kAside_cells));
+      if (!is_occupied(column, across, wall.is_along_x)) return false;
+    }
     const Eigen::Vector2d at =
         wall.is_along_x ? Eigen::Vector2d(along, across + 0.5) : Eigen::Vector2d(across + 0.5, along);
     const auto seen = column_at(at, wall.is_along_x);

@@ -31,6 +31,7 @@ class ThinWalls {
  public:
   ThinWalls(const OccupancyGrid& grid, int most_cells) : grid_(grid), most_cells_(most_cells) {}
 
+  const OccupancyGrid& grid() const { return grid_; }
   bool are_looked_at() const { return most_cells_ >= 2; }
 
   /// The occupied cells next to each other, across, from the one in which a point lies: their number and

@@ -12,6 +12,8 @@ namespace {
 constexpr double kSame_cells = 0.5;       // a piece this near to a longer one all along is a part of it …
 constexpr double kPastEnd_cells = 1.5;    // … if it ends so far past that at most
 constexpr double kMostMoved_cells = 2.5;  // an end, to where the wall meets another
+constexpr double kGrazed_cells = 0.1;     // a cell this near to a wall may be the wall's
+constexpr double kMostPassed = 0.75;      // share of its cells that other walls pass through too
 constexpr double kTile_cells = 4.0;
 
 bool lies_on(const WallIndex::Wall& piece, const WallIndex::Wall& wall) {
@@ -37,15 +39,55 @@ Segment2 between_ends(const ThinWall& wall, const Segment2& piece) {
   return {wall.at(from), wall.at(to)};
 }
 
-}  // namespace
+/// Which cells of a grid walls have been seen to pass through.
+class Passed {
+ public:
+  explicit Passed(const OccupancyGrid& grid)
+      : grid_(grid), is_passed_(grid.occupancy_percent.size(), false) {}
 
-void WallsOnce::add(const Segment2& piece, const std::optional<ThinWall>& wall) {
-  pieces_.push_back(wall ? between_ends(thin_.whole(*wall), piece) : piece);
-}
+  bool at(const Cell& cell) const { return grid_.contains(cell) && is_passed_[grid_.index(cell)]; }
 
-std::vector<Segment2> WallsOnce::walls() const {
+  /// The share of a wall's columns whose middle has been passed.
+  double share_of(const ThinWall& wall) const {
+    double passed = 0.0;
+    double all = 0.0;
+    for (double along = wall.from; along <= wall.to; along += 1.0, all += 1.0)
+      if (at(cell_of(wall.at(along)))) passed += 1.0;
+    return passed / all;
+  }
+  double share_of(std::span<const Eigen::Vector2d> middles) const {
+    const auto passed = std::count_if(middles.begin(), middles.end(),
+                                      [&](const Eigen::Vector2d& middle) { return at(cell_of(middle)); });
+    return static_cast<double>(passed) / static_cast<double>(middles.size());
+  }
+
+  void add(const ThinWall& wall) {
+    const double rise = std::abs(wall.line.slope);
+    const double half = 0.5 * std::max(rise, wall.cells - 1.0) + kGrazed_cells;
+    for (double along = wall.from; along <= wall.to; along += 1.0) {
+      const double middle = wall.line.across_at(along);
+      const int column = static_cast<int>(std::floor(along));
+      for (int across = static_cast<int>(std::floor(middle - half)); across <= std::floor(middle + half);
+           ++across) {
+        const Cell cell = wall.is_along_x ? Cell{column, across} : Cell{across, column};
+        if (grid_.contains(cell)) is_passed_[grid_.index(cell)] = true;
+      }
+    }
+  }
+
+ private:
+  static Cell cell_of(const Eigen::Vector2d& point) {
+    return {static_cast<int>(std::floor(point.x())), static_cast<int>(std::floor(point.y()))};
+  }
+
+  const OccupancyGrid& grid_;
+  std::vector<bool> is_passed_;
+};
+
+/// The pieces without those that lie on a longer one.
+std::vector<Segment2> without_parts(const std::vector<Segment2>& pieces) {
   FloorPlan plan;
-  for (const Segment2& piece : pieces_) plan.walls.push_back({piece.a, piece.b});
+  for (const Segment2& piece : pieces) plan.walls.push_back({piece.a, piece.b});
   const WallIndex index(plan, kTile_cells, kTile_cells);
   std::vector<Segment2> once;
   for (std::uint32_t id = 0; id < index.wall_count(); ++id) {
@@ -60,6 +102,37 @@ std::vector<Segment2> WallsOnce::walls() const {
     if (!is_part) once.push_back({piece.a, piece.a + piece.length_m * piece.along});
   }
   return once;
+}
+
+}  // namespace
+
+void WallsOnce::add(const Segment2& piece, std::span<const Eigen::Vector2d> middles,
+                    const std::optional<ThinWall>& wall) {
+  if (wall) {
+    const ThinWall whole = thin_.whole(*wall);
+    wholes_.push_back({whole, between_ends(whole, piece)});
+  } else {
+    others_.push_back({piece, {middles.begin(), middles.end()}});
+  }
+}
+
+std::vector<Segment2> WallsOnce::walls() const {
+  std::vector<const Whole*> longest_first;
+  longest_first.reserve(wholes_.size());
+  for (const Whole& whole : wholes_) longest_first.push_back(&whole);
+  std::stable_sort(longest_first.begin(), longest_first.end(), [](const Whole* p, const Whole* q) {
+    return p->wall.to - p->wall.from > q->wall.to - q->wall.from;
+  });
+  Passed passed(thin_.grid());
+  std::vector<Segment2> pieces;
+  for (const Whole* whole : longest_first) {
+    if (passed.share_of(whole->wall) > kMostPassed) continue;
+    passed.add(whole->wall);
+    pieces.push_back(whole->between);
+  }
+  for (const Other& other : others_)
+    if (passed.share_of(other.middles) <= kMostPassed) pieces.push_back(other.piece);
+  return without_parts(pieces);
 }
 
 }  // namespace beaconless

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "beaconless/geometry/segment2.hpp"
@@ -11,20 +12,33 @@ namespace beaconless {
 
 /// Puts the pieces of outlines together into walls that are there once, in cells.
 ///
-/// A piece of a thin wall becomes the whole wall, and what lies on a longer wall is a part of that: the other
-/// side of a thin wall, and what is left of it between the things that stand against it.
+/// A piece of a thin wall becomes the whole wall. Left out is what shows nothing that longer walls do not:
+/// the other side of a thin wall, what is left of it between things that stand against it, and the borders of
+/// what lies between two walls that touch.
 class WallsOnce {
  public:
   explicit WallsOnce(const ThinWalls& thin) : thin_(thin) {}
 
-  void add(const Segment2& piece, const std::optional<ThinWall>& wall);
+  /// In: a piece of an outline, the middles of the cells along it, and the thin wall of which it is a part.
+  void add(const Segment2& piece, std::span<const Eigen::Vector2d> middles,
+           const std::optional<ThinWall>& wall);
 
-  /// Cost: the pieces times those near each.
+  /// Cost: the cells of the grid, and the pieces times those near each.
   std::vector<Segment2> walls() const;
 
  private:
+  struct Whole {
+    ThinWall wall;
+    Segment2 between;
+  };
+  struct Other {
+    Segment2 piece;
+    std::vector<Eigen::Vector2d> middles;
+  };
+
   const ThinWalls& thin_;
-  std::vector<Segment2> pieces_;
+  std::vector<Whole> wholes_;
+  std::vector<Other> others_;
 };
 
 }  // namespace beaconless
