@@ -20,8 +20,9 @@ namespace {
 
 constexpr double kMostMoved_cells = 2.5;  // a corner from where its outline was cut
 constexpr double kLeastTurn_deg = 15.0;   // flatter corners are not placed well by where lines cross
-constexpr int kLeastLength = 2;           // of a wall, in its thickness
-constexpr double kSmallShare = 0.3;       // of an outline's width: what is no larger is not straightened away
+constexpr double kDrawnShare = 0.8;
+constexpr int kLeastLength = 4;      // of a wall, in its thickness; what is shorter has two sides
+constexpr double kSmallShare = 0.3;  // of an outline's width: what is no larger is not straightened away
 
 using Points = std::vector<Eigen::Vector2d>;
 
@@ -64,6 +65,16 @@ struct Columns {
   std::vector<WallColumn> near;
 };
 
+/// Whether so many columns are as thick as usual as have to be where a line is drawn; a laser's noise makes
+/// them change from one to the next.
+bool is_drawn(const ThinWall& wall, const Columns& columns) {
+  const auto alike = std::count_if(columns.all.begin(), columns.all.end(),
+                                   [&](const WallColumn& column) { return column.cells <= wall.cells + 1; });
+  const double rise = std::abs(wall.line.slope);
+  const double expected = wall.cells == 1 ? 1.0 - rise : wall.cells == 2 && rise > 0.5 ? rise : 1.0;
+  return static_cast<double>(columns.usual.size()) >= kDrawnShare * expected * static_cast<double>(alike);
+}
+
 /// The line through the middles of a piece of a loop. Those at its ends belong to two pieces; a piece that is
 /// long enough does without.
 Piece piece_of(const Points& loop, std::size_t first, std::size_t last, const ThinWalls& thin,
@@ -90,8 +101,8 @@ Piece piece_of(const Points& loop, std::size_t first, std::size_t last, const Th
         // Where something stands against the wall, its cells are not the wall's.
         std::copy_if(columns.all.begin(), columns.all.end(), std::back_inserter(columns.usual),
                      [&](const WallColumn& column) { return column.cells == usual; });
-        if (auto wall = thin.wall_of(columns.usual, is_along_x, columns.near))
-          return {principal_line_of(*wall), {}, wall};
+        auto wall = thin.wall_of(columns.usual, is_along_x, columns.near);
+        if (wall && is_drawn(*wall, columns)) return {principal_line_of(*wall), {}, wall};
         for (const WallColumn& column : columns.all)
           if (column.cells <= usual + 1)
             sums.add(is_along_x ? column.along : column.across, is_along_x ? column.across : column.along);

@@ -13,7 +13,8 @@ constexpr double kSame_cells = 0.5;       // a piece this near to a longer one a
 constexpr double kPastEnd_cells = 1.5;    // … if it ends so far past that at most
 constexpr double kMostMoved_cells = 2.5;  // an end, to where the wall meets another
 constexpr double kGrazed_cells = 0.1;     // a cell this near to a wall may be the wall's
-constexpr double kMostPassed = 0.75;      // share of its cells that other walls pass through too
+constexpr double kMostPassed = 0.75;      // share of a thin wall's columns that longer ones pass through too
+constexpr double kAllPassed = 0.95;       // … of the cells of what is no thin wall
 constexpr double kTile_cells = 4.0;
 
 bool lies_on(const WallIndex::Wall& piece, const WallIndex::Wall& wall) {
@@ -131,7 +132,7 @@ std::vector<Segment2> WallsOnce::walls() const {
     pieces.push_back(whole->between);
   }
   for (const Other& other : others_)
-    if (passed.share_of(other.middles) <= kMostPassed) pieces.push_back(other.piece);
+    if (passed.share_of(other.middles) <= kAllPassed) pieces.push_back(other.piece);
   return without_parts(pieces);
 }
 
