@@ -56,7 +56,9 @@ class Passed {
       if (at(cell_of(wall.at(along)))) passed += 1.0;
     return passed / all;
   }
+  /// … of cells; those at the ends belong to two pieces.
   double share_of(std::span<const Eigen::Vector2d> middles) const {
+    if (middles.size() > 4) middles = middles.subspan(1, middles.size() - 2);
     const auto passed = std::count_if(middles.begin(), middles.end(),
                                       [&](const Eigen::Vector2d& middle) { return at(cell_of(middle)); });
     return static_cast<double>(passed) / static_cast<double>(middles.size());
@@ -65,7 +67,7 @@ class Passed {
   void add(const ThinWall& wall) {
     const double rise = std::abs(wall.line.slope);
     const double half = 0.5 * std::max(rise, wall.cells - 1.0) + kGrazed_cells;
-    for (double along = wall.from; along <= wall.to; along += 1.0) {
+    for (double along = wall.from - 1.0; along <= wall.to + 1.0; along += 1.0) {
       const double middle = wall.line.across_at(along);
       const int column = static_cast<int>(std::floor(along));
       for (int across = static_cast<int>(std::floor(middle - half)); across <= std::floor(middle + half);
