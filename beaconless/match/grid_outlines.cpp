@@ -89,6 +89,7 @@ Piece piece_of(const Points& loop, std::size_t first, std::size_t last, const Th
     std::vector<int> cells;
     for (std::size_t i = first + spare; i <= last - spare; ++i)
       if (const auto column = thin.column_at(loop[i], is_along_x)) {
+        if (!columns.all.empty() && columns.all.back().along == column->along) continue;
         columns.all.push_back(*column);
         cells.push_back(column->cells);
       }
