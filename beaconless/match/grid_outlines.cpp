@@ -190,6 +190,7 @@ FloorPlan outlines_of(const OccupancyGrid& grid, const GridOutlinesConfig& confi
   }
   if (thin.are_looked_at()) {
     plan.cell_m = grid.resolution_m;
+    plan.cells_rad = grid.map_from_grid.theta_rad;
     for (const Segment2& wall : once.walls()) plan.walls.push_back({wall.a, wall.b});
   }
   for (FloorPlan::Polyline& wall : plan.walls)
