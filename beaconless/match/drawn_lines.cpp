@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLeastDrawn = 5;  // columns that tell a line
 constexpr double kSteepest = 1.2;       // slope against the axis that a wall is nearer to
-constexpr double kSteep = 0.5;          // two cells a column are a line's own from here
+constexpr double kSteep = 0.4;          // two cells a column are a line's own from here
 constexpr std::array<double, 4> kSlack{0.0, 0.05, 0.1, 0.2};  // of cells that stray by more than rounding
 constexpr std::size_t kPicked = 12;                           // pairs of these many and one are tried …
 constexpr double kNear_cells = 0.75;                          // … for a line that passes so near …
@@ -107,6 +107,7 @@ std::optional<DrawnLine> drawn_line(const std::vector<WallColumn>& columns) {
     const Eigen::Vector2d mean = possible.centroid();
     line.slope = mean.x();
     line.across = mean.y();
+    line.slack = slack;
     return line;
   }
   return std::nullopt;

@@ -20,6 +20,7 @@ struct DrawnLine {
   double middle = 0.0;  ///< along, of the columns that told it
   double across = 0.0;  ///< of the line, there
   double slope = 0.0;
+  double slack = 0.0;  ///< that its cells stray by, beyond rounding
 
   double across_at(double along) const { return across + slope * (along - middle); }
 };

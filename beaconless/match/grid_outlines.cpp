@@ -71,7 +71,7 @@ bool is_drawn(const ThinWall& wall, const Columns& columns) {
   const auto alike = std::count_if(columns.all.begin(), columns.all.end(),
                                    [&](const WallColumn& column) { return column.cells <= wall.cells + 1; });
   const double rise = std::abs(wall.line.slope);
-  const double expected = wall.cells == 1 ? 1.0 - rise : wall.cells == 2 && rise > 0.5 ? rise : 1.0;
+  const double expected = wall.cells == 1 ? 1.0 - rise : wall.cells == 2 && rise > 0.4 ? rise : 1.0;
   return static_cast<double>(columns.usual.size()) >= kDrawnShare * expected * static_cast<double>(alike);
 }
 

@@ -45,6 +45,7 @@ std::optional<ThinWall> ThinWalls::wall_of(const std::vector<WallColumn>& column
   wall.line = *line;
   wall.cells = near.front().cells;
   wall.is_along_x = is_along_x;
+  wall.columns = near.size();
   const auto [first, last] = std::minmax_element(
       near.begin(), near.end(), [](const WallColumn& p, const WallColumn& q) { return p.along < q.along; });
   wall.from = first->along;

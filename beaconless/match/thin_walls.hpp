@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace beaconless {
 /// A straight wall of a few cells across, in cells of its grid.
 struct ThinWall {
   DrawnLine line;
-  double from = 0.0;  ///< along, the middle of the first column that tells it
-  double to = 0.0;    ///< … of the last
-  int cells = 1;      ///< across, as usual
+  double from = 0.0;        ///< along, the middle of the first column that tells it
+  double to = 0.0;          ///< … of the last
+  int cells = 1;            ///< across, as usual
+  std::size_t columns = 0;  ///< that tell it
   bool is_along_x = true;
 
   /// The point on its line, so far along.

@@ -15,6 +15,7 @@ constexpr double kMostMoved_cells = 2.5;  // an end, to where the wall meets ano
 constexpr double kGrazed_cells = 0.1;     // a cell this near to a wall may be the wall's
 constexpr double kMostPassed = 0.75;      // share of a thin wall's columns that longer ones pass through too
 constexpr double kAllPassed = 0.95;       // … of the cells of what is no thin wall
+constexpr double kDoubt = 3.0;            // how little a wall's columns count where they stray
 constexpr double kTile_cells = 4.0;
 
 bool lies_on(const WallIndex::Wall& piece, const WallIndex::Wall& wall) {
@@ -120,15 +121,18 @@ void WallsOnce::add(const Segment2& piece, std::span<const Eigen::Vector2d> midd
 }
 
 std::vector<Segment2> WallsOnce::walls() const {
-  std::vector<const Whole*> longest_first;
-  longest_first.reserve(wholes_.size());
-  for (const Whole& whole : wholes_) longest_first.push_back(&whole);
-  std::stable_sort(longest_first.begin(), longest_first.end(), [](const Whole* p, const Whole* q) {
-    return p->wall.to - p->wall.from > q->wall.to - q->wall.from;
-  });
+  // What leads through cells of several walls may be longer than each, but has fewer columns of its own.
+  std::vector<const Whole*> surest_first;
+  surest_first.reserve(wholes_.size());
+  for (const Whole& whole : wholes_) surest_first.push_back(&whole);
+  const auto sureness = [](const ThinWall& wall) {
+    return static_cast<double>(wall.columns) * (1.0 - kDoubt * wall.line.slack);
+  };
+  std::stable_sort(surest_first.begin(), surest_first.end(),
+                   [&](const Whole* p, const Whole* q) { return sureness(p->wall) > sureness(q->wall); });
   Passed passed(thin_.grid());
   std::vector<Segment2> pieces;
-  for (const Whole* whole : longest_first) {
+  for (const Whole* whole : surest_first) {
     if (passed.share_of(whole->wall) > kMostPassed) continue;
     passed.add(whole->wall);
     pieces.push_back(whole->between);
