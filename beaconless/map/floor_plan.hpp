@@ -16,7 +16,8 @@ struct FloorPlan {
   using Polyline = std::vector<Eigen::Vector2d>;
 
   std::vector<Polyline> walls;
-  double cell_m = 0.0;  ///< of the grid that the walls were read from; 0: they were measured
+  double cell_m = 0.0;     ///< of the grid that the walls were read from; 0: they were measured
+  double cells_rad = 0.0;  ///< heading of that grid's rows
 
   /// Every straight piece, in order; pieces of no length are left out.
   std::vector<Segment2> segments() const;

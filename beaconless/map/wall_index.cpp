@@ -56,6 +56,7 @@ void for_tiles_near(const Segment2& wall, double reach_m, const Tiling& tiling, 
   }
 }
 
+constexpr int kMostRepeated = 5;    // cells after which a wall comes to the same place in them
 constexpr double kMaxVisits = 4e7;  // of tiles by walls, so that no plan takes for ever
 
 Tiling tiling_of(const FloorPlan::Bounds& bounds, const std::vector<Segment2>& walls, double reach_m,
@@ -111,11 +112,24 @@ std::vector<Segment2> distinct(std::vector<Segment2> walls) {
   return walls;
 }
 
-/// Every cell of a wall shuts out lines, so that what is left of where it lies falls with their number; a
-/// short piece is somewhere in its cells.
-double variance_of_read(double cell_m, double length_m) {
-  const double sigma_m = std::min(cell_m / std::sqrt(12.0), cell_m * cell_m / length_m);
-  return sigma_m * sigma_m;
+/// Of where a wall lies across that was read from cells: each of them shuts out lines, so that what is left
+/// falls with their number. Where the wall rises by p cells in q, the same places in cells come again, and
+/// the 1/q of a cell between them stays: a whole cell along the axes of the grid. Source: Dorst and
+/// Smeulders, "Discrete representation of straight lines", 1984.
+double variance_of_read(const FloorPlan& plan, const Segment2& wall) {
+  if (plan.cell_m <= 0.0) return 0.0;
+  const Eigen::Vector2d way = wall.b - wall.a;
+  const double along_x = std::abs(std::cos(plan.cells_rad) * way.x() + std::sin(plan.cells_rad) * way.y());
+  const double along_y = std::abs(std::cos(plan.cells_rad) * way.y() - std::sin(plan.cells_rad) * way.x());
+  const double cells = std::max(along_x, along_y) / plan.cell_m;
+  const double slope = std::min(along_x, along_y) / std::max(along_x, along_y);
+  double sigma_cells = 1.0 / cells;
+  for (int q = kMostRepeated; q >= 1; --q)
+    if (std::abs(q * slope - std::round(q * slope)) * cells < 1.0)
+      sigma_cells = std::max(sigma_cells, 1.0 / (q * std::sqrt(12.0)));
+  const double inverse_cos2 = 1.0 + slope * slope;  // across the wall, not along the other axis
+  const double sigma_m = plan.cell_m * std::min(sigma_cells, 1.0 / std::sqrt(12.0));
+  return sigma_m * sigma_m / inverse_cos2;
 }
 
 }  // namespace
@@ -135,7 +149,7 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   walls_.reserve(segments.size());
   for (const Segment2& segment : segments)
     walls_.push_back({segment.a, (segment.b - segment.a).normalized(), segment.length_m(),
-                      variance_of_read(plan.cell_m, segment.length_m())});
+                      variance_of_read(plan, segment)});
 
   // Of the walls within reach of any point of a tile, those that can be nearest somewhere in each cell.
   const WallsOfTiles within_reach(segments, reach_m_ + 0.5 * std::numbers::sqrt2 * tiling.side_m, tiling);

@@ -10,7 +10,7 @@ namespace beaconless {
 /// How far the middles of cells may stray from a wall that is straight.
 struct GridOutlinesConfig {
   double straight_cells = 1.5;  ///< a straight wall's cells stray by 1 from the line through two of them
-  int thin_cells = 0;  ///< walls of no more cells are lines through the middle of them; 0: all have two sides
+  int thin_cells = 0;  ///< walls no thicker are lines through their middle, there once; 0: all have two sides
   double straight_least_m = 0.04;  ///< … and by the noise of the laser that drew a finer grid
 };
 
@@ -28,6 +28,13 @@ void describe(Fields& fields, GridOutlinesConfig& config);
 /// principal axis of its cells and corners by where those cross, so that the error of a corner is a part of a
 /// cell; what is left is that all cells of a wall along the grid are off by the same. Middles rather than
 /// faces, because a beam that draws a cell ends anywhere in it.
+///
+/// With `thin_cells` walls are single pieces, not outlines: what is at least four times as long as thick and
+/// no thicker than that lies where its cells leave room for a line (see drawn_line) if they are alike, else
+/// along their middles by occupancy. A line goes on past what stands against it, to where its cells end. What
+/// shows no cell that a surer wall does not pass through is left out. The plan then says of which cells it
+/// was read. Errors: an end may be off by a cell, and where cells of other things fit the line too, so may
+/// that.
 FloorPlan outlines_of(const OccupancyGrid& grid, const GridOutlinesConfig& config = {});
 
 }  // namespace beaconless

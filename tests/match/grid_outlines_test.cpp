@@ -12,6 +12,7 @@
 #include "beaconless/geometry/angle.hpp"
 #include "beaconless/map/rasterize.hpp"
 #include "beaconless/map/ray_caster.hpp"
+#include "beaconless/map/wall_index.hpp"
 #include "beaconless/match/cell_loops.hpp"
 
 #include "tests/support/rooms.hpp"
@@ -186,6 +187,102 @@ TEST(GridOutlines, HaveCornersWhereTheyWereDrawn) {
     std::sort(off_cells.begin(), off_cells.end());
     EXPECT_LT(off_cells[off_cells.size() / 2], 0.3) << heading_deg;
     EXPECT_LT(off_cells.back(), 0.4) << heading_deg;
+  }
+}
+
+/// A wall of 6 m along x, from the origin, with boxes that touch it or stand near it on both sides.
+FloorPlan wall_with_boxes() {
+  const auto box = [](double x, double y, double width, double depth) {
+    return FloorPlan::Polyline{{x, y}, {x + width, y}, {x + width, y + depth}, {x, y + depth}, {x, y}};
+  };
+  return {.walls = {{{0.0, 0.0}, {6.0, 0.0}},
+                    box(0.8, 0.06, 0.7, 0.4),
+                    box(2.2, 0.0, 0.5, 0.5),
+                    box(3.1, -0.4, 0.4, 0.34),
+                    box(4.0, 0.05, 1.1, 0.45)}};
+}
+
+/// The pieces that lie along most of the wall of wall_with_boxes, within a cell.
+std::vector<Segment2> along_the_wall(const FloorPlan& outlines) {
+  std::vector<Segment2> found;
+  for (const Segment2& wall : outlines.segments())
+    if (wall.length_m() > 0.3 && std::abs(wall.a.y()) < 0.025 && std::abs(wall.b.y()) < 0.025)
+      found.push_back(wall);
+  return found;
+}
+
+TEST(ThinGridOutlines, AWallIsWholeBehindWhatStandsAgainstIt) {
+  for (const double heading_deg : {7.0, -11.0, 23.0, 40.0})
+    for (const double phase : {0.5, 0.2}) {
+      const OccupancyGrid grid =
+          rasterize(wall_with_boxes(),
+                    {.resolution_m = 0.05, .heading_rad = radians(heading_deg), .phase_x_cells = phase})
+              .value();
+      const FloorPlan outlines = outlines_of(grid, {.thin_cells = 4});
+      EXPECT_EQ(outlines.cell_m, 0.05);
+      const std::vector<Segment2> found = along_the_wall(outlines);
+      ASSERT_EQ(found.size(), 1U) << heading_deg << " " << phase;  // and not once for each side
+      EXPECT_NEAR(found[0].length_m(), 6.0, 0.1) << heading_deg << " " << phase;
+      for (double x = 0.1; x < 5.95; x += 0.1)
+        EXPECT_LT(found[0].distance_m({x, 0.0}), 0.05 / 20.0) << heading_deg << " " << phase << " " << x;
+    }
+}
+
+TEST(ThinGridOutlines, ThickThingsHaveTwoSides) {
+  std::vector<std::string> rows(16, std::string(40, '.'));
+  for (int y = 3; y < 9; ++y) rows[y].replace(5, 30, 30, '#');
+  const OccupancyGrid grid = drawn(rows);
+  const FloorPlan outlines = outlines_of(grid, {.thin_cells = 4});
+  EXPECT_EQ(outlines.segments().size(), 4U);
+  EXPECT_NEAR(distance_m(outlines, {20.0, 7.5}), 0.0, 1e-9);
+  EXPECT_NEAR(distance_m(outlines, {20.0, 12.5}), 0.0, 1e-9);
+  EXPECT_GT(distance_m(outlines, {20.0, 10.0}), 2.0);
+}
+
+TEST(ThinGridOutlines, AThinWallIsOneLineAndAPostIsNot) {
+  const FloorPlan wall = outlines_of(
+      drawn({"..............", ".############.", ".############.", ".............."}), {.thin_cells = 4});
+  ASSERT_EQ(wall.segments().size(), 1U);
+  EXPECT_NEAR(wall.segments()[0].a.y(), 2.0, 1e-9);
+  EXPECT_NEAR(wall.segments()[0].b.y(), 2.0, 1e-9);
+  const FloorPlan post = outlines_of(drawn({"....", ".##.", ".##.", "...."}), {.thin_cells = 4});
+  EXPECT_EQ(post.segments().size(), 4U);
+}
+
+TEST(ThinGridOutlines, OnlyIfAskedFor) {
+  const OccupancyGrid grid =
+      rasterize(wall_with_boxes(), {.resolution_m = 0.05, .heading_rad = radians(7.0)}).value();
+  const FloorPlan outlines = outlines_of(grid);
+  EXPECT_EQ(outlines.cell_m, 0.0);
+  EXPECT_EQ(outlines.walls.size(), find_cell_loops(grid).size());
+  for (const FloorPlan::Polyline& wall : outlines.walls) EXPECT_EQ(wall.front(), wall.back());
+  EXPECT_TRUE(outlines_of(OccupancyGrid{}, {.thin_cells = 4}).walls.empty());
+}
+
+TEST(ThinGridOutlines, AreOffByWhatTheIndexSays) {
+  // A room at many places in the cells: its walls' offsets against the standard deviations that are claimed.
+  Rng rng(3);
+  for (const double heading_deg : {0.0, 7.0, 45.0}) {
+    double square = 0.0;
+    double claimed = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      const FloorPlan room{.walls = {{{0.0, 0.0}, {5.0, 0.0}, {5.0, 4.0}, {0.0, 4.0}, {0.0, 0.0}}}};
+      const OccupancyGrid grid = rasterize(room, {.resolution_m = 0.05,
+                                                  .heading_rad = radians(heading_deg),
+                                                  .phase_x_cells = rng.uniform(),
+                                                  .phase_y_cells = rng.uniform()})
+                                     .value();
+      const WallIndex index(outlines_of(grid, {.thin_cells = 4}));
+      for (std::uint32_t id = 0; id < index.wall_count(); ++id) {
+        const WallIndex::Wall& wall = index.wall(id);
+        if (wall.length_m < 3.0) continue;
+        const Eigen::Vector2d middle = wall.a + 0.5 * wall.length_m * wall.along;
+        square += std::pow(distance_m(room, middle), 2);
+        claimed += wall.variance_m2;
+      }
+    }
+    EXPECT_GT(square, 0.25 * claimed) << heading_deg;
+    EXPECT_LT(square, 1.6 * claimed) << heading_deg;
   }
 }
 
