@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
 
 #include "beaconless/geometry/pose_covariance.hpp"
 
@@ -104,7 +104,7 @@ std::optional<ToldTwist> MotionFilter::told_by(Stamp stamp, const Pose2& map_fro
 
 void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
   const auto told = told_by(stamp, map_from_base, covariance);
-  if (!told) return hold(stamp, map_from_base, covariance);
+  if (!told || elapsed_s(stamp) > config_.max_gap_s) return hold(stamp, map_from_base, covariance);
   note_change(*told, elapsed_s(stamp));
   set(stamp, map_from_base, covariance);
   take(*told);
@@ -124,11 +124,20 @@ bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {
 }
 
 void MotionFilter::take(const ToldTwist& told) {
-  const Eigen::Matrix3d& before = motion_.covariance;
-  const Eigen::Matrix3d all = before + told.covariance + kTiny;
-  const Eigen::Matrix3d gain = before * all.inverse();
-  motion_.per_s += gain * (told.per_s - motion_.per_s);
-  motion_.covariance = symmetric(before - gain * before);
+  // In axes and units that make a unit sphere of the covariance so far: no variance can become negative
+  // there, however far apart both are.
+  const Eigen::LLT<Eigen::Matrix3d> before(motion_.covariance + kTiny);
+  const Eigen::Matrix3d root = before.matrixL();
+  const auto unit = root.triangularView<Eigen::Lower>();
+  const Eigen::Matrix3d half = unit.solve(told.covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> noise(symmetric(unit.solve(half.transpose())));
+  if (before.info() != Eigen::Success || noise.info() != Eigen::Success) return;
+  const Eigen::Array3d variances = noise.eigenvalues().array().max(0.0);
+  const Eigen::Matrix3d axes = root * noise.eigenvectors();
+  const Eigen::Vector3d off = noise.eigenvectors().transpose() * unit.solve(told.per_s - motion_.per_s);
+  motion_.per_s += axes * (off.array() / (1.0 + variances)).matrix();
+  const Eigen::Matrix3d left = axes * (variances / (1.0 + variances)).sqrt().matrix().asDiagonal();
+  motion_.covariance = symmetric(left * left.transpose());
 }
 
 void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
@@ -137,8 +146,8 @@ void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Ma
 }
 
 void MotionFilter::set(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
-  if (stamped_) {
-    const double dt = elapsed_s(stamp);
+  const double dt = elapsed_s(stamp);
+  if (stamped_ && dt <= config_.max_gap_s) {
     motion_.covariance += expected_change(dt);
     usual_step_s_ = dt;
   } else {
