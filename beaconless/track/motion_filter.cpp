@@ -16,8 +16,9 @@ const ToldTwist kUnknownMotion{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identit
 
 const Eigen::Matrix3d kTiny = 1e-12 * Eigen::Matrix3d::Identity();  // so that nothing is divided by zero
 constexpr double kFarOff = 25.0;                                    // squared standard deviations
-constexpr double kCalming = 0.7;  // of what the motion changed by lately, from scan to scan
-constexpr double kCalm = 3e-4;    // of the squared change that is possible: steady motion
+constexpr double kCalming = 0.7;     // of what the motion changed by lately, from scan to scan
+constexpr double kHeardNoise = 4.0;  // variances that what is heard may be off by and nothing has changed
+constexpr double kCalm = 3e-4;       // of the squared change that is possible: steady motion
 
 double square(double value) { return value * value; }
 
@@ -60,9 +61,9 @@ Eigen::Matrix3d MotionFilter::expected_change(double elapsed_s) const {
   return possible_change(elapsed_s).cwiseProduct(lately_).asDiagonal();
 }
 
-void MotionFilter::note_change(const ToldTwist& told, double elapsed_s) {
+void MotionFilter::note_change(const ToldTwist& told, double elapsed_s, double noise) {
   const Eigen::Vector3d change =
-      (told.per_s - motion_.per_s).cwiseAbs2() - told.covariance.diagonal() - motion_.covariance.diagonal();
+      (told.per_s - motion_.per_s).cwiseAbs2() - noise * (told.covariance + motion_.covariance).diagonal();
   const Eigen::Vector3d seen = change.cwiseQuotient(possible_change(elapsed_s).cwiseMax(1e-12));
   const double move = std::max(seen.x(), seen.y());
   lately_ =
@@ -105,7 +106,7 @@ std::optional<ToldTwist> MotionFilter::told_by(Stamp stamp, const Pose2& map_fro
 void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
   const auto told = told_by(stamp, map_from_base, covariance);
   if (!told || elapsed_s(stamp) > config_.max_gap_s) return hold(stamp, map_from_base, covariance);
-  note_change(*told, elapsed_s(stamp));
+  note_change(*told, elapsed_s(stamp), 1.0);
   set(stamp, map_from_base, covariance);
   take(*told);
 }
@@ -117,7 +118,7 @@ bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {
   Eigen::Matrix3d possible = motion_.covariance + told.covariance + kTiny;
   possible += possible_change(since_s).asDiagonal();
   if (!(off.dot(possible.ldlt().solve(off)) < kFarOff)) return false;
-  note_change(told, since_s);
+  note_change(told, since_s, kHeardNoise);
   motion_.covariance += expected_change(since_s);
   take(told);
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/track/motion_filter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -117,6 +118,30 @@ TEST(MotionFilter, HearsAVelocityThatIsPossible) {
   const ToldTwist after = robot.filter.motion_at(robot.now);
   EXPECT_GT(after.per_s.x(), before.per_s.x() + 0.01);
   EXPECT_LE(after.per_s.x(), told.per_s.x());
+}
+
+/// Wheels with a noise of 5 % must not make a steady motion look as if it changed.
+TEST(MotionFilter, TheNoiseOfWhatIsHeardIsNoChangeOfTheMotion) {
+  Rng rng(32);
+  Driven robot;
+  robot.drive(kTwistPerS, 80);
+  const Eigen::Matrix3d noise = pose_noise(0.05);
+  double most_off = 0.0;
+  for (int scan = 0; scan < 200; ++scan) {
+    const Eigen::Vector3d off(rng.normal(0.05), rng.normal(0.05), rng.normal(0.05));
+    robot.filter.hear({kTwistPerS.vector() + off, noise}, kStep_s);
+    robot.drive(kTwistPerS, 1, 0.0005);
+    most_off = std::max(most_off, (robot.filter.motion_at(robot.now).per_s - kTwistPerS.vector()).norm());
+  }
+  EXPECT_LT(most_off, 0.03);
+}
+
+TEST(MotionFilter, AChangeThatIsHeardIsBelievedAtOnce) {
+  Driven robot;
+  robot.drive(kTwistPerS, 80);
+  const Eigen::Vector3d faster = kTwistPerS.vector() + Eigen::Vector3d(0.1, 0, 0);
+  ASSERT_TRUE(robot.filter.hear({faster, pose_noise(0.005)}, 0.1));
+  EXPECT_NEAR(robot.filter.motion_at(robot.now).per_s.x(), faster.x(), 0.03);
 }
 
 TEST(MotionFilter, DoesNotHearWhatIsImpossible) {
