@@ -208,6 +208,51 @@ TEST_F(Localize, TakesTheScansOfTheSlice) {
   }
 }
 
+/// A CARMEN log has no time per beam; where one knows how fast the mirror turns, the option tells.
+TEST_F(Localize, ASweepTimeThatIsToldStraightensTheScansOfALog) {
+  const std::string scenario = folder.write(
+      "fast.yaml",
+      "plan: room.yaml\nduration_s: 5\nseed: 6\nlidar: {sweep: rotating, rate_hz: 8}\n"
+      "path: {kind: ellipse, center_x_m: 3.2, center_y_m: 2.1, semi_axis_x_m: 1.0, semi_axis_y_m: 0.9, "
+      "speed_mps: 1.2, turns: 3}\n");
+  ASSERT_EQ(run({"simulate", scenario, "--out", folder.path("fast")}).exit_code, 0);
+  const std::string reference = folder.path("fast/truth.tum");
+  const Words call{"localize",
+                   folder.path("fast/recording.log.gz"),
+                   "--map",
+                   folder.path("fast/plan.yaml"),
+                   "--base-from-laser",
+                   "0.7,0,0",
+                   "--start-from",
+                   reference,
+                   "--reference",
+                   reference,
+                   "--method",
+                   "walls",
+                   "--out",
+                   folder.path("run")};
+  const auto rmse_m = [&](const Words& more) {
+    const Ran ran = run(call + more);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return nlohmann::json::parse(folder.read("run/summary.json"))["error"]["position_m"]["rmse"]
+        .get<double>();
+  };
+  const double bent_m = rmse_m({});
+  const double straight_m = rmse_m({"--sweep-time", "0.09375"});  // 270 of 360 degrees at 8 Hz
+  EXPECT_GT(bent_m, 0.01) << "or nothing had to be straightened";
+  EXPECT_LT(straight_m, 0.2 * bent_m);
+  EXPECT_EQ(rmse_m({"--sweep-time", "0"}), bent_m) << "0: believe the source, which tells none";
+  EXPECT_EQ(rmse_m({"--sweep-time", "0.09375", "--set", "deskew=false"}), bent_m);
+}
+
+TEST_F(Localize, ASweepTimeThatIsNoTimeIsRefused) {
+  for (const char* wrong : {"-0.1", "-1e-9", "nan", "soon", ""}) {
+    const Ran ran = run(localize() + Words{"--sweep-time", wrong});
+    EXPECT_EQ(ran.exit_code, 2) << wrong;
+    EXPECT_THAT(ran.err, HasSubstr("--sweep-time")) << wrong;
+  }
+}
+
 TEST_F(Localize, SlicesThatTakeNothingAreWrongWords) {
   for (const char* words : {"a:b", "::0", "-3:", "1:2:3:4", "5:2", "4:4", "1.5"}) {
     const Ran ran = run(localize() + Words{"--scans", words});
