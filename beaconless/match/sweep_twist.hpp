@@ -31,6 +31,8 @@ struct SweepTwist {
 /// after the stamp (s); the pose that was fitted. Nothing where the beams that lie on walls are too few, or
 /// came all at once. Cost: one nearest look-up a beam. Source: pose and twist by one Gauss-Newton step on the
 /// distances to the walls (six unknowns), the pose eliminated by the Schur complement.
+/// The covariance is honest for corrections that move beams by no more than a range's noise; larger ones are
+/// near, and told well by a step more.
 std::optional<SweepTwist> twist_of_sweep(std::span<const Eigen::Vector2d> points,
                                          std::span<const double> times_s, const SurfaceMap& map,
                                          const Pose2& map_from_laser, const SweepNoise& noise);

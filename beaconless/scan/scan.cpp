@@ -34,13 +34,14 @@ std::optional<Error> refuse(const RawScan& raw) {
   return std::nullopt;
 }
 
-/// Seconds from one beam to the next; 0 where the source tells none that a scanner could have.
+/// Seconds from one beam to the next; 0 where neither gate nor source tells any that a scanner could have.
 double beam_step_s(const RawScan& raw, const ScanGate& gate) {
-  const double gaps = static_cast<double>(raw.ranges_m.size()) - 1.0;
-  const double step_s = gate.sweep_time_s > 0.0 && gaps > 0.0 ? gate.sweep_time_s / gaps
-                                                              : static_cast<double>(raw.time_increment_s);
-  const double sweep_s = step_s * static_cast<double>(raw.ranges_m.size());
-  return step_s > 0.0 && sweep_s < kLongestSweep_s ? step_s : 0.0;
+  const auto beams = static_cast<double>(raw.ranges_m.size());
+  const auto can_be = [beams](double step_s) { return step_s > 0.0 && step_s * beams < kLongestSweep_s; };
+  const double told_s = beams > 1.0 ? gate.sweep_time_s / (beams - 1.0) : 0.0;
+  if (can_be(told_s)) return told_s;
+  const auto own_s = static_cast<double>(raw.time_increment_s);
+  return can_be(own_s) ? own_s : 0.0;
 }
 
 /// Keeps one turn: a beam within half a step of 360° after the first is the first one again.

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Eigenvalues>
 
 #include "beaconless/geometry/pose_covariance.hpp"
 
@@ -16,8 +16,9 @@ const ToldTwist kUnknownMotion{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identit
 
 const Eigen::Matrix3d kTiny = 1e-12 * Eigen::Matrix3d::Identity();  // so that nothing is divided by zero
 constexpr double kFarOff = 25.0;                                    // squared standard deviations
-constexpr double kCalming = 0.7;  // of what the motion changed by lately, from scan to scan
-constexpr double kCalm = 3e-4;    // of the squared change that is possible: steady motion
+constexpr double kCalming = 0.7;     // of what the motion changed by lately, from scan to scan
+constexpr double kHeardNoise = 4.0;  // variances that what is heard may be off by and nothing has changed
+constexpr double kCalm = 3e-4;       // of the squared change that is possible: steady motion
 
 double square(double value) { return value * value; }
 
@@ -60,9 +61,9 @@ Eigen::Matrix3d MotionFilter::expected_change(double elapsed_s) const {
   return possible_change(elapsed_s).cwiseProduct(lately_).asDiagonal();
 }
 
-void MotionFilter::note_change(const ToldTwist& told, double elapsed_s) {
+void MotionFilter::note_change(const ToldTwist& told, double elapsed_s, double noise) {
   const Eigen::Vector3d change =
-      (told.per_s - motion_.per_s).cwiseAbs2() - told.covariance.diagonal() - motion_.covariance.diagonal();
+      (told.per_s - motion_.per_s).cwiseAbs2() - noise * (told.covariance + motion_.covariance).diagonal();
   const Eigen::Vector3d seen = change.cwiseQuotient(possible_change(elapsed_s).cwiseMax(1e-12));
   const double move = std::max(seen.x(), seen.y());
   lately_ =
@@ -104,8 +105,8 @@ std::optional<ToldTwist> MotionFilter::told_by(Stamp stamp, const Pose2& map_fro
 
 void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
   const auto told = told_by(stamp, map_from_base, covariance);
-  if (!told) return hold(stamp, map_from_base, covariance);
-  note_change(*told, elapsed_s(stamp));
+  if (!told || elapsed_s(stamp) > config_.max_gap_s) return hold(stamp, map_from_base, covariance);
+  note_change(*told, elapsed_s(stamp), 1.0);
   set(stamp, map_from_base, covariance);
   take(*told);
 }
@@ -117,18 +118,27 @@ bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {
   Eigen::Matrix3d possible = motion_.covariance + told.covariance + kTiny;
   possible += possible_change(since_s).asDiagonal();
   if (!(off.dot(possible.ldlt().solve(off)) < kFarOff)) return false;
-  note_change(told, since_s);
+  note_change(told, since_s, kHeardNoise);
   motion_.covariance += expected_change(since_s);
   take(told);
   return true;
 }
 
 void MotionFilter::take(const ToldTwist& told) {
-  const Eigen::Matrix3d& before = motion_.covariance;
-  const Eigen::Matrix3d all = before + told.covariance + kTiny;
-  const Eigen::Matrix3d gain = before * all.inverse();
-  motion_.per_s += gain * (told.per_s - motion_.per_s);
-  motion_.covariance = symmetric(before - gain * before);
+  // In axes and units that make a unit sphere of the covariance so far: no variance can become negative
+  // there, however far apart both are.
+  const Eigen::LLT<Eigen::Matrix3d> before(motion_.covariance + kTiny);
+  const Eigen::Matrix3d root = before.matrixL();
+  const auto unit = root.triangularView<Eigen::Lower>();
+  const Eigen::Matrix3d half = unit.solve(told.covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> noise(symmetric(unit.solve(half.transpose())));
+  if (before.info() != Eigen::Success || noise.info() != Eigen::Success) return;
+  const Eigen::Array3d variances = noise.eigenvalues().array().max(0.0);
+  const Eigen::Matrix3d axes = root * noise.eigenvectors();
+  const Eigen::Vector3d off = noise.eigenvectors().transpose() * unit.solve(told.per_s - motion_.per_s);
+  motion_.per_s += axes * (off.array() / (1.0 + variances)).matrix();
+  const Eigen::Matrix3d left = axes * (variances / (1.0 + variances)).sqrt().matrix().asDiagonal();
+  motion_.covariance = symmetric(left * left.transpose());
 }
 
 void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
@@ -137,8 +147,8 @@ void MotionFilter::hold(Stamp stamp, const Pose2& map_from_base, const Eigen::Ma
 }
 
 void MotionFilter::set(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance) {
-  if (stamped_) {
-    const double dt = elapsed_s(stamp);
+  const double dt = elapsed_s(stamp);
+  if (stamped_ && dt <= config_.max_gap_s) {
     motion_.covariance += expected_change(dt);
     usual_step_s_ = dt;
   } else {

@@ -83,7 +83,7 @@ class MotionFilter {
   double elapsed_s(Stamp stamp) const;
   Eigen::Vector3d possible_change(double elapsed_s) const;
   Eigen::Matrix3d expected_change(double elapsed_s) const;
-  void note_change(const ToldTwist& told, double elapsed_s);
+  void note_change(const ToldTwist& told, double elapsed_s, double noise);
   void set(Stamp stamp, const Pose2& map_from_base, const Eigen::Matrix3d& covariance);
   void take(const ToldTwist& told);
 };

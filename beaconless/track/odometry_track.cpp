@@ -27,12 +27,10 @@ void describe(Fields& fields, OdometryConfig& config) {
 
 void OdometryTrack::add(Stamp stamp, const Pose2& odom_from_base) {
   if (!config_.use || !odom_from_base.is_finite()) return;
-  if (count_ > 0) {
-    const Entry& last = entry(0);
-    has_moved_ = has_moved_ || distance_m(last.odom_from_base, odom_from_base) > kMoved_m ||
-                 heading_difference_rad(last.odom_from_base, odom_from_base) > kMoved_rad;
-    if (!(seconds_between(last.stamp, stamp) > 0.0)) count_ = 0;
-  }
+  if (count_ > 0 && !(seconds_between(entry(0).stamp, stamp) > 0.0)) count_ = 0;
+  if (count_ == 0) begun_at_ = odom_from_base;
+  has_moved_ = has_moved_ || distance_m(begun_at_, odom_from_base) > kMoved_m ||
+               heading_difference_rad(begun_at_, odom_from_base) > kMoved_rad;
   entries_[next_] = {stamp, odom_from_base};
   next_ = (next_ + 1) % kRoom;
   count_ = std::min(count_ + 1, kRoom);
@@ -69,7 +67,7 @@ std::optional<ToldTwist> OdometryTrack::between(Stamp from, Stamp to) const {
 void OdometryTrack::compare(Stamp from, Stamp to, const ToldTwist& seen) {
   const auto told = between(from, to);
   if (!told) {
-    agreed_ = 0;
+    agreed_ = std::min(agreed_, 0);  // and what was distrusted stays so
     return;
   }
   const Eigen::Vector3d off = told->per_s - seen.per_s;

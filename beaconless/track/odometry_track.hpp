@@ -59,8 +59,9 @@ class OdometryTrack {
   std::array<Entry, kRoom> entries_{};
   std::size_t next_ = 0;
   std::size_t count_ = 0;
-  bool has_moved_ = false;
-  int agreed_ = 0;  // scans in a row
+  Pose2 begun_at_;
+  bool has_moved_ = false;  // from there, ever
+  int agreed_ = 0;          // scans in a row
 };
 
 }  // namespace beaconless

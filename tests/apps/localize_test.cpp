@@ -5,10 +5,13 @@
 
 #include <gmock/gmock.h>
 
+#include "beaconless/io/carmen_writer.hpp"
 #include "beaconless/io/config_yaml.hpp"
 #include "beaconless/io/estimates_csv.hpp"
+#include "beaconless/io/scenario_io.hpp"
 #include "beaconless/io/tum.hpp"
 #include "beaconless/localize/localizer_config.hpp"
+#include "beaconless/sim/scenario.hpp"
 
 #include "tests/apps/drive.hpp"
 #include "tests/report/well_formed.hpp"
@@ -205,6 +208,58 @@ TEST_F(Localize, TakesTheScansOfTheSlice) {
     ASSERT_EQ(trajectory.size(), slice.count) << slice.words;
     for (std::size_t i = 0; i < slice.first_scans.size(); ++i)
       EXPECT_EQ(trajectory[i].stamp, truths[slice.first_scans[i]].stamp) << slice.words;
+  }
+}
+
+/// CARMEN logs of others tell no time per beam; who knows how fast the mirror turns says it.
+TEST_F(Localize, ASweepTimeThatIsToldStraightensTheScansOfALog) {
+  const std::string scenario = folder.write(
+      "fast.yaml",
+      "plan: room.yaml\nduration_s: 5\nseed: 6\nlidar: {sweep: rotating, rate_hz: 8}\n"
+      "path: {kind: ellipse, center_x_m: 3.2, center_y_m: 2.1, semi_axis_x_m: 1.0, semi_axis_y_m: 0.9, "
+      "speed_mps: 1.2, turns: 3}\n");
+  ASSERT_EQ(run({"simulate", scenario, "--out", folder.path("fast")}).exit_code, 0);
+  io::CarmenWriter silent(folder.path("silent.log"));
+  const auto written = sim::simulate(io::read_scenario(scenario).value(), [&](const sim::Sample& sample) {
+    RawScan raw = sample.scan;
+    raw.time_increment_s = 0.0F;
+    silent.write(raw);
+  });
+  ASSERT_TRUE(written && silent.close());
+  const std::string reference = folder.path("fast/truth.tum");
+  const Words call{"localize",
+                   folder.path("silent.log"),
+                   "--map",
+                   folder.path("fast/plan.yaml"),
+                   "--base-from-laser",
+                   "0.7,0,0",
+                   "--start-from",
+                   reference,
+                   "--reference",
+                   reference,
+                   "--method",
+                   "walls",
+                   "--out",
+                   folder.path("run")};
+  const auto rmse_m = [&](const Words& more) {
+    const Ran ran = run(call + more);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return nlohmann::json::parse(folder.read("run/summary.json"))["error"]["position_m"]["rmse"]
+        .get<double>();
+  };
+  const double bent_m = rmse_m({});
+  const double straight_m = rmse_m({"--sweep-time", "0.09375"});  // 270 of 360 degrees at 8 Hz
+  EXPECT_GT(bent_m, 0.01) << "or nothing had to be straightened";
+  EXPECT_LT(straight_m, 0.2 * bent_m);
+  EXPECT_EQ(rmse_m({"--sweep-time", "0"}), bent_m) << "0: believe the source, which tells none";
+  EXPECT_NEAR(rmse_m({"--sweep-time", "0.09375", "--set", "deskew=false"}), bent_m, 0.05 * bent_m);
+}
+
+TEST_F(Localize, ASweepTimeThatIsNoTimeIsRefused) {
+  for (const char* wrong : {"-0.1", "-1e-9", "nan", "soon", ""}) {
+    const Ran ran = run(localize() + Words{"--sweep-time", wrong});
+    EXPECT_EQ(ran.exit_code, 2) << wrong;
+    EXPECT_THAT(ran.err, HasSubstr("--sweep-time")) << wrong;
   }
 }
 

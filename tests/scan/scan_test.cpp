@@ -200,6 +200,55 @@ TEST(Scan, ATimePerBeamThatCannotBeMeansNone) {
   }
 }
 
+TEST(Scan, AToldSweepTimeCountsMoreThanTheSources) {
+  const RawScan raw = sweep(1025, 0.25);  // tells 15.625 ms
+  const auto sweep_ms = [&raw](double told_s) {
+    return 1e3 * made(raw, {.sweep_time_s = told_s}).sweep_time_s();
+  };
+  EXPECT_DOUBLE_EQ(sweep_ms(0.125), 125.0);
+  EXPECT_DOUBLE_EQ(sweep_ms(0.001), 1.0);
+  EXPECT_DOUBLE_EQ(sweep_ms(0.0), 15.625) << "not told";
+
+  RawScan silent = raw;
+  silent.time_increment_s = 0.0F;
+  const Scan scan = made(silent, {.sweep_time_s = 0.5});
+  EXPECT_DOUBLE_EQ(scan.sweep_time_s(), 0.5);
+  EXPECT_DOUBLE_EQ(scan.beam_time_s(0), 0.0);
+  EXPECT_DOUBLE_EQ(scan.beam_time_s(512), 0.25);
+  EXPECT_DOUBLE_EQ(scan.beam_time_s(1024), 0.5);
+  EXPECT_EQ(made(silent, {.sweep_time_s = 0.0}).sweep_time_s(), 0.0);
+}
+
+TEST(Scan, AToldSweepTimeShiftsTheStampAndTurnsWithTheBeams) {
+  const RawScan raw = sweep(1025, 0.25);
+  for (const RawScan& way : {raw, upside_down(raw)}) {
+    const auto early_ns = [&](StampIs stamp_is) {
+      return raw.stamp.ns - made(way, {.stamp_is = stamp_is, .sweep_time_s = 0.125}).stamp().ns;
+    };
+    EXPECT_EQ(early_ns(StampIs::first_beam), 0);
+    EXPECT_EQ(early_ns(StampIs::middle_beam), 62'500'000);
+    EXPECT_EQ(early_ns(StampIs::last_beam), 125'000'000);
+  }
+  EXPECT_DOUBLE_EQ(made(upside_down(raw), {.sweep_time_s = 0.125}).beam_time_s(0), 0.125);
+}
+
+TEST(Scan, AToldSweepTimeThatCannotBeCountsAsNotTold) {
+  const RawScan raw = sweep(1025, 0.25);
+  RawScan silent = raw;
+  silent.time_increment_s = 0.0F;
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  const auto inf = std::numeric_limits<double>::infinity();
+  for (const double told_s : {nan, inf, -inf, -0.1, -0.0, 61.0, 1e300}) {
+    EXPECT_DOUBLE_EQ(made(raw, {.sweep_time_s = told_s}).sweep_time_s(), 0.015625) << told_s;
+    EXPECT_EQ(made(raw, {.stamp_is = StampIs::last_beam, .sweep_time_s = told_s}).stamp().ns,
+              raw.stamp.ns - 15'625'000)
+        << told_s;
+    EXPECT_EQ(made(silent, {.sweep_time_s = told_s}).sweep_time_s(), 0.0) << told_s;
+  }
+  EXPECT_EQ(made(sweep(1, 1.0), {.stamp_is = StampIs::last_beam, .sweep_time_s = 1.0}).stamp(), raw.stamp)
+      << "one beam is no sweep";
+}
+
 TEST(Scan, IntensitiesAreFinite) {
   RawScan raw = with_ranges({1.0F, 2.0F, 3.0F, 4.0F});
   raw.intensities = {kNan, kInf, -kInf, 9.0F};
