@@ -46,6 +46,8 @@ class WallIndex {
     const std::uint32_t* const list = lists_.data() + cells_[tile / 2 + (cell & (0 - tile % 2))];
     return {list + 1, list[0]};
   }
+  /// Whether there is but one wall near: any other is then at least half a diagonal of a cell away.
+  bool is_alone(const Eigen::Vector2d& point_map) const { return near(point_map).size() == 1; }
   const Wall& wall(std::uint32_t id) const { return walls_[id]; }
 
   double reach_m() const { return reach_m_; }
