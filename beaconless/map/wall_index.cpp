@@ -151,6 +151,24 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   lists_ = std::move(divided.lists);
   cells_.shrink_to_fit();
   lists_.shrink_to_fit();
+  for (Wall& wall : walls_) find_clear_stretch(wall);
+}
+
+/// By steps of half a cell: a cell with one wall in its list is where no other can be nearest.
+void WallIndex::find_clear_stretch(Wall& wall) const {
+  const auto steps = static_cast<std::int64_t>(std::ceil(wall.length_m / (0.5 * cell_m_)));
+  const double step_m = wall.length_m / static_cast<double>(steps);
+  double from_m = 0.0;
+  bool was_clear = false;
+  for (std::int64_t i = 0; i <= steps; ++i) {
+    const double at_m = step_m * static_cast<double>(i);
+    const bool is_clear = near(wall.a + at_m * wall.along).size() == 1;
+    if (is_clear && !was_clear) from_m = at_m;
+    was_clear = is_clear;
+    if (!is_clear || at_m - from_m <= wall.clear_to_m - wall.clear_from_m) continue;
+    wall.clear_from_m = from_m;
+    wall.clear_to_m = at_m;
+  }
 }
 
 std::size_t WallIndex::memory_bytes() const {

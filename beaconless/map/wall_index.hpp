@@ -30,6 +30,10 @@ class WallIndex {
     Eigen::Vector2d along;  ///< unit
     double length_m;
     double variance_m2 = 0.0;  ///< of where it lies across, as a plan that was read from a grid leaves it
+    /// From here to there, along the wall, any other is at least half a diagonal of a cell away: the longest
+    /// such stretch, where there are several.
+    double clear_from_m = 0.0;
+    double clear_to_m = 0.0;
   };
 
   std::optional<SurfacePoint> nearest(const Eigen::Vector2d& point_map) const;
@@ -46,8 +50,6 @@ class WallIndex {
     const std::uint32_t* const list = lists_.data() + cells_[tile / 2 + (cell & (0 - tile % 2))];
     return {list + 1, list[0]};
   }
-  /// Whether there is but one wall near: any other is then at least half a diagonal of a cell away.
-  bool is_alone(const Eigen::Vector2d& point_map) const { return near(point_map).size() == 1; }
   const Wall& wall(std::uint32_t id) const { return walls_[id]; }
 
   double reach_m() const { return reach_m_; }
@@ -58,6 +60,8 @@ class WallIndex {
 
  private:
   static constexpr std::uint32_t kTile = 8;  // cells along each side of a tile
+
+  void find_clear_stretch(Wall& wall) const;
 
   std::vector<Wall> walls_;
   double reach_m_ = 0.0;

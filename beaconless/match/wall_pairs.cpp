@@ -92,15 +92,15 @@ inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
   return best;
 }
 
-/// Whether a beam plainly hits the wall that the beam before it hit: well within its ends, nearer to it than
-/// noise alone would have it, and with no other wall near. Then they need not be compared.
-inline bool hits_again(Hit& hit, const WallIndex& walls, const Ray& ray, double near_m, double least_cos) {
+/// Whether a beam plainly hits the wall that the beam before it hit: where no other wall is near, and nearer
+/// to it than noise alone would have it. Then no other wall is looked up.
+inline bool hits_again(Hit& hit, const Ray& ray, double near_m, double least_cos) {
   const auto [along, side, across] = beside(*hit.wall, ray);
   hit.across = across;
   hit.nearest_m2 = side * side;
   // |side| below near · |across| is |beyond| below near; the way along the wall is then below near too.
-  return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos && along > near_m &&
-         along < hit.wall->length_m - near_m && walls.is_alone({ray.end_x, ray.end_y});
+  return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos &&
+         along > hit.wall->clear_from_m + near_m && along < hit.wall->clear_to_m - near_m;
 }
 
 /// What a range to a wall tells, as information.

@@ -57,12 +57,13 @@ Count start_all(Localizer& localizer, const Offset& off, std::span<const Pose2> 
     count.right += is_right ? 1 : 0;
     count.wrong_and_ok += !is_right && estimate.ok() ? 1 : 0;
     if (!is_right && estimate.ok())
-      std::cerr << "wrong and ok: truth " << truth << " start " << off.metres << " way " << way << " turn " << turn << " found "
-                << estimate.map_from_base << " q " << estimate.quality << "\n";
+      std::cerr << "wrong and ok: truth " << truth << " start " << off.metres << " way " << way << " turn "
+                << turn << " found " << estimate.map_from_base << " q " << estimate.quality << "\n";
   }
   testing::Test::RecordProperty("right", count.right);
   testing::Test::RecordProperty("wrong_and_ok", count.wrong_and_ok);
-  std::cerr << off.name << " right " << count.right << " wrong and ok " << count.wrong_and_ok << " of " << count.starts << "\n";
+  std::cerr << off.name << " right " << count.right << " wrong and ok " << count.wrong_and_ok << " of "
+            << count.starts << "\n";
   return count;
 }
 
@@ -103,9 +104,8 @@ TEST_P(RackHallBasin, OneScanTellsTheWayBack) {
   std::vector<Pose2> truths;
   for (int i = 0; i < 500; ++i) truths.push_back(room.anywhere());
   const auto localizer = make_localizer({.method = "walls"}, room.plan).value();
-  const Count count = start_all(*localizer, GetParam(), truths, [&](std::size_t at) {
-    return Scan::make(room.see(truths[at])).value();
-  });
+  const Count count = start_all(*localizer, GetParam(), truths,
+                                [&](std::size_t at) { return Scan::make(room.see(truths[at])).value(); });
   EXPECT_GE(count.right, GetParam().share * count.starts);
   EXPECT_EQ(count.wrong_and_ok, 0);
 }

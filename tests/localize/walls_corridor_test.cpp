@@ -36,8 +36,8 @@ RawScan see(const RayCaster& walls, const Pose2& from, Rng& rng, Stamp stamp = {
               .range_min_m = 0.1F,
               .range_max_m = static_cast<float>(kReach_m)};
   for (int i = 0; i < 1080; ++i) {
-    const double heading =
-        from.theta_rad + static_cast<double>(raw.angle_min_rad) + i * static_cast<double>(raw.angle_increment_rad);
+    const double heading = from.theta_rad + static_cast<double>(raw.angle_min_rad) +
+                           i * static_cast<double>(raw.angle_increment_rad);
     const auto hit = walls.cast(from.translation(), {std::cos(heading), std::sin(heading)}, kReach_m);
     raw.ranges_m.push_back(hit ? static_cast<float>(hit->range_m + rng.normal(0.01))
                                : std::numeric_limits<float>::infinity());
@@ -62,15 +62,16 @@ TEST(WallsCorridor, LeavesOpenWhatLiesAlongTheAxis) {
   WallsScratch scratch;
   Rng rng(81);
   for (int run = 0; run < 200; ++run) {
-    const Pose2 truth = kMapFromAxis * Pose2{rng.uniform(16, 34), rng.uniform(0.5, 2.0), rng.uniform(-kPi, kPi)};
+    const Pose2 truth =
+        kMapFromAxis * Pose2{rng.uniform(16, 34), rng.uniform(0.5, 2.0), rng.uniform(-kPi, kPi)};
     const Pose2 guess = truth * Pose2{rng.uniform(-0.01, 0.01), rng.uniform(-0.01, 0.01), 0.002};
     const Scan scan = Scan::make(see(walls, truth, rng)).value();
     const MatchResult match = match_walls(test::points_of(scan), index, guess, 0.03, {}, scratch);
     ASSERT_EQ(match.rank, 2);
     const Eigen::Vector2d weak = match.weak_direction.head<2>().normalized();
     ASSERT_GT(std::abs(weak.dot(kMapFromAxis.rotation().col(0))), std::cos(radians(0.1)));
-    const double across_m = (kMapFromAxis.inverse() * match.map_from_laser).y_m -
-                            (kMapFromAxis.inverse() * truth).y_m;
+    const double across_m =
+        (kMapFromAxis.inverse() * match.map_from_laser).y_m - (kMapFromAxis.inverse() * truth).y_m;
     ASSERT_LT(std::abs(across_m), 5.0 * sigma_across_m(walls, scan, truth));
   }
 }
@@ -97,7 +98,8 @@ TEST_P(CorridorDrive, IsDegradedWithoutDriftAcrossAndOkWhereAnEndIsInSight) {
     if (x_m > 38.0) break;
     const Pose2 truth = driven(x_m);
     const Stamp stamp{tick * kStep_ns};
-    if (GetParam()) localizer->update(Odometry{.stamp = stamp, .odom_from_base = driven(8.0).inverse() * truth});
+    if (GetParam())
+      localizer->update(Odometry{.stamp = stamp, .odom_from_base = driven(8.0).inverse() * truth});
     const Scan scan = Scan::make(see(walls, truth, rng, stamp)).value();
     estimate = localizer->update(scan);
     const Pose2 found = kMapFromAxis.inverse() * estimate.map_from_base;
@@ -115,7 +117,10 @@ TEST_P(CorridorDrive, IsDegradedWithoutDriftAcrossAndOkWhereAnEndIsInSight) {
     // A path that bends: across the corridor where the robot is thought to be.
     const double sigmas = std::abs(found.y_m - real.y_m) / sigma_across_m(walls, scan, truth);
     worst_sigmas = std::max(worst_sigmas, sigmas);
-    if (tick % 50 == 0) std::cerr << x_m << " along " << found.x_m - real.x_m << " across " << found.y_m - real.y_m << " sig " << sigmas << " " << to_string(estimate.status) << " cov " << std::sqrt(estimate.covariance(0,0)) << "\n";
+    if (tick % 50 == 0)
+      std::cerr << x_m << " along " << found.x_m - real.x_m << " across " << found.y_m - real.y_m << " sig "
+                << sigmas << " " << to_string(estimate.status) << " cov "
+                << std::sqrt(estimate.covariance(0, 0)) << "\n";
   }
   EXPECT_GT(in_corridor, 500);
   EXPECT_GT(beyond, 50);

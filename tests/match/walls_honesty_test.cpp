@@ -53,14 +53,12 @@ TEST_P(WallsHonesty, FromWhereARobotIsPredicted) { expect_honest(trial(0.003, 0.
 
 TEST_P(WallsHonesty, FromARoughGuess) { expect_honest(trial(0.02, 0.1, 1002)); }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, WallsHonesty,
-                         testing::Values(World{"rectangle", test::rectangle(10, 6)},
-                                         World{"niche_room", test::niche_room()},
-                                         World{"hall", test::rectangle(30, 20)},
-                                         World{"rack_hall", test::rack_hall()},
-                                         World{"l_room", test::l_room()},
-                                         World{"cluttered_room", read("room-full")}),
-                         [](const auto& world) { return std::string(world.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Worlds, WallsHonesty,
+    testing::Values(World{"rectangle", test::rectangle(10, 6)}, World{"niche_room", test::niche_room()},
+                    World{"hall", test::rectangle(30, 20)}, World{"rack_hall", test::rack_hall()},
+                    World{"l_room", test::l_room()}, World{"cluttered_room", read("room-full")}),
+    [](const auto& world) { return std::string(world.param.name); });
 
 }  // namespace
 }  // namespace beaconless

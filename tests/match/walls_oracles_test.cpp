@@ -25,8 +25,8 @@ std::vector<Eigen::Vector2d> exact_points(const RayCaster& walls, const Pose2& f
 /// Pairs are made again only where ends of beams have moved by more than noise, so that the last digits come
 /// with the next match from where the one before ended, as scan follows scan.
 TEST(WallsOracles, WithoutNoiseThereIsNoError) {
-  for (const FloorPlan& plan :
-       {test::rectangle(4, 4), test::niche_room(), test::rectangle(30, 20), test::l_room(), test::rack_hall()}) {
+  for (const FloorPlan& plan : {test::rectangle(4, 4), test::niche_room(), test::rectangle(30, 20),
+                                test::l_room(), test::rack_hall()}) {
     WallRoom room(plan, 61);
     double worst_first_m = 0.0;
     double worst_m = 0.0;
@@ -34,8 +34,8 @@ TEST(WallsOracles, WithoutNoiseThereIsNoError) {
     for (int run = 0; run < 200; ++run) {
       const Pose2 truth = room.anywhere();
       const auto points = exact_points(room.walls, truth);
-      const MatchResult first = match_walls(points, room.index, room.near(truth, 0.04, 0.02), 0.1, room.config,
-                                            room.scratch);
+      const MatchResult first =
+          match_walls(points, room.index, room.near(truth, 0.04, 0.02), 0.1, room.config, room.scratch);
       const MatchResult match =
           match_walls(points, room.index, first.map_from_laser, 0.01, room.config, room.scratch);
       worst_first_m = std::max(worst_first_m, distance_m(first.map_from_laser, truth));
@@ -80,7 +80,8 @@ TEST(WallsOracles, HalfOfTheBeamsOnPeopleCostLessThanHalfOfTheAccuracy) {
 /// A panel stands closer in front of a wall than noise tells apart.
 TEST(WallsOracles, APanelJustBeforeAWallIsNotTheWall) {
   for (const double gap_m : {0.01, 0.025, 0.05})
-    for (const bool is_mirrored : {false, true}) {  // beams come to the panel from the wall, or leave it for it
+    for (const bool is_mirrored :
+         {false, true}) {  // beams come to the panel from the wall, or leave it for it
       FloorPlan plan = test::rectangle(6, 5);
       const double from = is_mirrored ? 0.0 : 1.5;
       plan.walls.push_back({{from, 5.0}, {from, 5.0 - gap_m}, {from + 4.5, 5.0 - gap_m}, {from + 4.5, 5.0}});

@@ -23,7 +23,8 @@ std::vector<Case> cases_in(WallRoom& room, int count) {
   std::vector<Case> cases;
   for (int i = 0; i < count; ++i) {
     const Pose2 truth = room.anywhere();
-    cases.push_back({test::points_of(Scan::make(room.see(truth)).value()), truth, room.near(truth, 0.005, 0.005)});
+    cases.push_back(
+        {test::points_of(Scan::make(room.see(truth)).value()), truth, room.near(truth, 0.005, 0.005)});
   }
   return cases;
 }
