@@ -2,6 +2,10 @@
 // From how far off a start one scan tells where the robot is, and whether it ever says ok where it is not.
 // Skipped where the recordings are not.
 #include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <span>
+#include <string>
 
 #include <gtest/gtest.h>
 
