@@ -98,9 +98,9 @@ inline bool hits_again(Hit& hit, const Ray& ray, double near_m, double least_cos
   const auto [along, side, across] = beside(*hit.wall, ray);
   hit.across = across;
   hit.nearest_m2 = side * side;
-  // |side| below near · |across| is |beyond| below near; the way along the wall is then below near too.
+  // |side| below near · |across| is |beyond| below near.
   return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos &&
-         along > hit.wall->clear_from_m + near_m && along < hit.wall->clear_to_m - near_m;
+         along > hit.wall->clear_from_m && along < hit.wall->clear_to_m;
 }
 
 /// What a range to a wall tells, as information.
