@@ -117,10 +117,6 @@ TEST_P(CorridorDrive, IsDegradedWithoutDriftAcrossAndOkWhereAnEndIsInSight) {
     // A path that bends: across the corridor where the robot is thought to be.
     const double sigmas = std::abs(found.y_m - real.y_m) / sigma_across_m(walls, scan, truth);
     worst_sigmas = std::max(worst_sigmas, sigmas);
-    if (tick % 50 == 0)
-      std::cerr << x_m << " along " << found.x_m - real.x_m << " across " << found.y_m - real.y_m << " sig "
-                << sigmas << " " << to_string(estimate.status) << " cov "
-                << std::sqrt(estimate.covariance(0, 0)) << "\n";
   }
   EXPECT_GT(in_corridor, 500);
   EXPECT_GT(beyond, 50);
