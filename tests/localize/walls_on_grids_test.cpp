@@ -44,10 +44,8 @@ TEST_P(WallsOnGrids, AreOffByPartsOfACell) {
   RecordProperty("worst_mm", std::to_string(1e3 * worst_m));
   // Along the rows all cells of a wall are off by the same, half a cell to each side; along their diagonals
   // too, by the width of a cell there. In between the offsets average out.
-  if (GetParam() % 45 == 0)
-    EXPECT_LT(worst_m, 0.5 * std::sqrt(2.0) * kCell_m + 1e-3);
-  else
-    EXPECT_LT(worst_m, 0.002);
+  const bool is_aligned = GetParam() % 45 == 0;
+  EXPECT_LT(worst_m, is_aligned ? 0.5 * std::sqrt(2.0) * kCell_m + 1e-3 : 0.002);
 }
 
 INSTANTIATE_TEST_SUITE_P(Headings, WallsOnGrids, testing::Values(0, 3, 7, 15, 22, 30, 38, 45),

@@ -53,7 +53,9 @@ TEST_P(CrowdedRoom, IsNeverOkAndFarFromTheTruth) {
   const Judged judged = judge(0.01 * GetParam(), 3, 91);
   EXPECT_EQ(judged.wrong_and_ok, 0) << "of " << judged.all;
   // A few people are no reason to doubt.
-  if (GetParam() <= 20) EXPECT_GT(judged.ok, judged.all / 2);
+  if (GetParam() <= 20) {
+    EXPECT_GT(judged.ok, judged.all / 2);
+  }
 }
 
 TEST(CrowdedStart, IsNeverOkAndFarFromTheTruth) {
