@@ -165,6 +165,33 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   lists_ = std::move(divided.lists);
   cells_.shrink_to_fit();
   lists_.shrink_to_fit();
+  for (Wall& wall : walls_) find_clear_stretch(wall);
+}
+
+/// By steps of a quarter of a cell. What is not in the list of a cell is further away than asked for.
+void WallIndex::find_clear_stretch(Wall& wall) const {
+  const double clear_m2 = 0.5 * cell_m_ * cell_m_;
+  const auto is_clear = [&](const Eigen::Vector2d& point) {
+    const auto here = near(point);
+    return std::all_of(here.begin(), here.end(), [&](std::uint32_t id) {
+      const Wall& other = walls_[id];
+      const double at_m = std::clamp(other.along.dot(point - other.a), 0.0, other.length_m);
+      return &other == &wall || (point - other.a - at_m * other.along).squaredNorm() > clear_m2;
+    });
+  };
+  const auto steps = static_cast<std::int64_t>(std::ceil(wall.length_m / (0.25 * cell_m_)));
+  const double step_m = wall.length_m / static_cast<double>(steps);
+  double from_m = 0.0;
+  bool was_clear = false;
+  for (std::int64_t i = 0; i <= steps; ++i) {
+    const double at_m = step_m * static_cast<double>(i);
+    const bool is_clear_here = is_clear(wall.a + at_m * wall.along);
+    if (is_clear_here && !was_clear) from_m = at_m;
+    was_clear = is_clear_here;
+    if (!is_clear_here || at_m - from_m <= wall.clear_to_m - wall.clear_from_m) continue;
+    wall.clear_from_m = from_m;
+    wall.clear_to_m = at_m;
+  }
 }
 
 std::size_t WallIndex::memory_bytes() const {

@@ -30,6 +30,10 @@ class WallIndex {
     Eigen::Vector2d along;  ///< unit
     double length_m;
     double variance_m2 = 0.0;  ///< of where it lies across, as a plan that was read from a grid leaves it
+    /// From here to there, along the wall, any other is at least half a diagonal of a cell away: the longest
+    /// such stretch, where there are several.
+    double clear_from_m = 0.0;
+    double clear_to_m = 0.0;
   };
 
   std::optional<SurfacePoint> nearest(const Eigen::Vector2d& point_map) const;
@@ -56,6 +60,8 @@ class WallIndex {
 
  private:
   static constexpr std::uint32_t kTile = 8;  // cells along each side of a tile
+
+  void find_clear_stretch(Wall& wall) const;
 
   std::vector<Wall> walls_;
   double reach_m_ = 0.0;

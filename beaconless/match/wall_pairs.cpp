@@ -14,7 +14,8 @@
 namespace beaconless {
 namespace {
 
-constexpr double kSlack_m = 0.005;    // by which a beam may miss the end of a wall
+constexpr double kSlack_sigma = 0.5;  // by which a beam may miss the end of a wall
+constexpr double kParallel = 1e-6;    // a beam meets no wall at a smaller angle
 constexpr double kPlain_sigma = 3.0;  // this near to the wall of the beam before, a beam is on it too
 constexpr double kFirst_sigma = 4.0;  // of two walls behind each other the first is taken up to here
 
@@ -56,39 +57,50 @@ inline Beside beside(const WallIndex::Wall& wall, const Ray& ray) {
           wall.along.x() * ray.direction_y - wall.along.y() * ray.direction_x};
 }
 
-/// The wall that a beam meets nearest to where it ends; of two that it meets there, the first.
+/// The wall that a beam meets nearest to where it ends; of two that it meets there, the first. One whose end
+/// it misses by a little is met where no other is. A beam that grazes its wall is on no other one either.
 inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
   Hit best;
   double best_beyond_m = std::numeric_limits<double>::infinity();
+  bool is_best_missed = false;
   for (const std::uint32_t id : walls.near({ray.end_x, ray.end_y})) {
     const WallIndex::Wall& wall = walls.wall(id);
     const auto [along, side, across] = beside(wall, ray);
     const double outside = std::max({0.0, -along, along - wall.length_m});
     best.nearest_m2 = std::min(best.nearest_m2, side * side + outside * outside);
-    if (std::abs(side) > gate.distance_m || std::abs(across) < gate.least_cos) continue;
+    if (std::abs(side) > gate.distance_m || std::abs(across) < kParallel) continue;
     const double beyond = side / across;  // of the beam's end, along the beam
     const double at = along - beyond * (wall.along.x() * ray.direction_x + wall.along.y() * ray.direction_y);
     if (at < -gate.slack_m || at > wall.length_m + gate.slack_m) continue;
-    const bool is_first = beyond > best_beyond_m && beyond < gate.first_m;
-    const bool is_behind = beyond < best_beyond_m && best_beyond_m < gate.first_m;
-    if (best.wall != nullptr && !is_first && (is_behind || std::abs(beyond) >= std::abs(best_beyond_m)))
-      continue;
+    const bool is_missed = at < 0.0 || at > wall.length_m;
+    if (best.wall != nullptr && is_missed == is_best_missed) {
+      const bool is_first = beyond > best_beyond_m && beyond < gate.first_m;
+      const bool is_behind = beyond < best_beyond_m && best_beyond_m < gate.first_m;
+      if (!is_first && (is_behind || std::abs(beyond) >= std::abs(best_beyond_m))) continue;
+    } else if (best.wall != nullptr) {
+      const double met_m = is_missed ? best_beyond_m : beyond;
+      const double missed_m = is_missed ? beyond : best_beyond_m;
+      const bool is_met = std::abs(met_m) < std::max(gate.first_m, std::abs(missed_m));
+      if (is_met == is_missed) continue;
+    }
     best_beyond_m = beyond;
+    is_best_missed = is_missed;
     best.wall = &wall;
     best.across = across;
   }
+  if (std::abs(best.across) < gate.least_cos) best.wall = nullptr;
   return best;
 }
 
-/// Whether a beam plainly hits the wall that the beam before it hit: well within its ends, and nearer to it
-/// than noise alone would have it. Then no other wall is looked up.
+/// Whether a beam plainly hits the wall that the beam before it hit: where no other wall is near, and nearer
+/// to it than noise alone would have it. Then no other wall is looked up.
 inline bool hits_again(Hit& hit, const Ray& ray, double near_m, double least_cos) {
   const auto [along, side, across] = beside(*hit.wall, ray);
   hit.across = across;
   hit.nearest_m2 = side * side;
-  // |side| below near · |across| is |beyond| below near; the way along the wall is then below near too.
-  return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos && along > near_m &&
-         along < hit.wall->length_m - near_m;
+  // |side| below near · |across| is |beyond| below near.
+  return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos &&
+         along > hit.wall->clear_from_m && along < hit.wall->clear_to_m;
 }
 
 /// What a range to a wall tells, as information.
@@ -206,7 +218,7 @@ WallPairing pair_with_walls(std::span<const Eigen::Vector2d> points, const WallI
       .y = map_from_laser.y_m,
       .cos = std::cos(map_from_laser.theta_rad),
       .sin = std::sin(map_from_laser.theta_rad),
-      .gate = {gate_m, std::max(kSlack_m, 0.3 * (gate_m - config.near_gate_m)),
+      .gate = {gate_m, std::max(kSlack_sigma * config.sigma_m, 0.3 * (gate_m - config.near_gate_m)),
                std::max(kFirst_sigma * config.sigma_m, 0.3 * gate_m),
                std::cos(radians(config.max_incidence_deg))},
       .plain_m = kPlain_sigma * config.sigma_m,

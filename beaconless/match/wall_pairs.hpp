@@ -22,8 +22,8 @@ struct WallPairing {
 ///
 /// In: ends of beams in the laser frame; a loop that this processor knows. Beams that end further than
 /// `gate_m` beside a wall do not hit it. A beam that is within three standard deviations of the wall of the
-/// beam before it is on that wall, whatever else is there; any other is looked up. Cost: four beams at once
-/// on one wall, a look-up for any other.
+/// beam before it, where no other wall is near, is on that wall; any other is looked up. Cost: four beams at
+/// once on one wall, a look-up for any other.
 WallPairing pair_with_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls,
                             const Pose2& map_from_laser, double gate_m, const WallsConfig& config,
                             WallBeams& beams, VectorLoop loop);

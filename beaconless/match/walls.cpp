@@ -14,8 +14,7 @@ constexpr int kRounds = 6;         // of pairing
 constexpr int kSteps = 8;          // of Gauss-Newton on the same pairs
 constexpr double kStill_m = 1e-4;  // a step below both is the last: the next one would be its square
 constexpr double kStill_rad = 5e-5;
-constexpr double kMoved_m = 0.01;  // pairs made this far away are made again …
-constexpr double kMoved_rad = 0.005;
+constexpr double kMoved_sigma = 0.25;  // ends of beams that move more than this are paired again
 constexpr double kLeastCurvature = 0.5;
 constexpr double kSettled = 0.95;        // of the scale before, and it narrows no more
 constexpr double kNarrowing = 2.0;       // of the scale from step to step, at most
@@ -138,8 +137,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     // 3. Pairs that were made from too far away, or too generously, are made again.
     const double next_gate_m =
         std::min(gate_m, std::max(config.near_gate_m, config.cut_sigma * result.scale_m));
-    const bool has_moved =
-        fit.step.translation().norm() > kMoved_m || std::abs(fit.step.theta_rad) > kMoved_rad;
+    const double moved_m = fit.step.translation().norm() + arm_of(fit.sums) * std::abs(fit.step.theta_rad);
+    const bool has_moved = moved_m > kMoved_sigma * noise_m;
     const bool is_settled = !has_moved && next_gate_m > 0.8 * gate_m;
     // 4. What scatters more than the laser does is the map: its walls are off across, not along the beams.
     const bool is_off = fit.scale > kMoreThanNoise && !is_map_blamed;

@@ -92,6 +92,55 @@ TEST(WallBeams, SumsAreThoseOfThePlainLoop) {
   }
 }
 
+/// Tukey's loss, whose slope is z times the weight.
+double loss_of(const std::vector<Beam>& beams, const Pose2& step, double cut) {
+  double sum = 0.0;
+  for (const Beam& beam : beams) {
+    const double e = beyond_m(beam, step);
+    const double left = std::max(0.0, 1.0 - e * e * beam.information / (cut * cut));
+    sum += cut * cut / 6.0 * (1.0 - left * left * left);
+  }
+  return sum;
+}
+
+TEST(WallBeams, GradientIsTheSlopeOfTheLoss) {
+  constexpr double kSmall = 1e-7;  // a beam of 20 m at a slant moves by standard deviations in a milliradian
+  constexpr double kCut = 6.0;
+  Rng rng(8);
+  for (int run = 0; run < 20; ++run) {
+    const auto beams = beams_of(60, rng);
+    const Pose2 step{rng.uniform(-0.01, 0.01), rng.uniform(-0.01, 0.01), rng.uniform(-0.002, 0.002)};
+    const Eigen::Vector3d gradient = sum_walls(loaded(beams), step, kCut, fastest_vector_loop()).gradient;
+    Eigen::Vector3d slope;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d by = kSmall * Eigen::Vector3d::Unit(k);
+      slope[k] = (loss_of(beams, stepped(step, by), kCut) - loss_of(beams, stepped(step, -by), kCut)) /
+                 (2.0 * kSmall);
+    }
+    EXPECT_LT((gradient - slope).norm(), 1e-6 * gradient.norm());
+  }
+}
+
+/// Of one beam H is J J^T, but for its weight.
+TEST(WallBeams, SlopesOfABeamAreThoseOfItsRange) {
+  constexpr double kSmall = 1e-5;
+  Rng rng(9);
+  for (int run = 0; run < 200; ++run) {
+    const auto beams = beams_of(2, rng);
+    const std::vector<Beam> one{beams.back()};
+    const Pose2 step{rng.uniform(-0.01, 0.01), rng.uniform(-0.01, 0.01), rng.uniform(-0.002, 0.002)};
+    const WallSums sums = sum_walls(loaded(one), step, 1e6, fastest_vector_loop());
+    Eigen::Vector3d slope;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d by = kSmall * Eigen::Vector3d::Unit(k);
+      slope[k] =
+          (beyond_m(one[0], stepped(step, by)) - beyond_m(one[0], stepped(step, -by))) / (2.0 * kSmall);
+    }
+    const Eigen::Matrix3d squares = sums.hessian / one[0].information;
+    EXPECT_LT((squares - slope * slope.transpose()).norm(), 1e-6 * squares.norm());
+  }
+}
+
 TEST(WallBeams, EveryLoopGivesTheSame) {
   if (fastest_vector_loop() == VectorLoop::portable)
     GTEST_SKIP() << "this processor knows the portable loop only";

@@ -7,63 +7,18 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "beaconless/eval/crb.hpp"
-#include "beaconless/eval/nees.hpp"
 #include "beaconless/sim/tape_measured.hpp"
 
-#include "tests/support/rooms.hpp"
+#include "tests/support/wall_room.hpp"
 
 namespace beaconless {
 namespace {
 
 using test::niche_room;
-using test::points_of;
 using test::rectangle;
 using test::sweep;
-
-struct Room {
-  explicit Room(const FloorPlan& of, std::uint64_t seed = 21)
-      : plan(of), walls(of.segments()), index(of), rng(seed) {}
-
-  FloorPlan plan;
-  RayCaster walls;
-  WallIndex index;
-  WallsConfig config;
-  WallsScratch scratch;
-  Rng rng;
-
-  RawScan see(const Pose2& from) { return sweep(walls, from, 0.01, rng); }
-  MatchResult match(const RawScan& raw, const Pose2& guess, double prior_m) {
-    return match_walls(points_of(Scan::make(raw).value()), index, guess, prior_m, config, scratch);
-  }
-  Pose2 near(const Pose2& pose, double metres, double rad) {
-    return {pose.x_m + rng.uniform(-metres, metres), pose.y_m + rng.uniform(-metres, metres),
-            wrap_angle(pose.theta_rad + rng.uniform(-rad, rad))};
-  }
-};
-
-/// Errors of many fits against what is possible.
-struct Trial {
-  double squares_m2 = 0.0;
-  double squares_rad2 = 0.0;
-  double bound_m2 = 0.0;
-  double bound_rad2 = 0.0;
-  double nees_sum = 0.0;
-  int count = 0;
-
-  void add(const MatchResult& match, const Pose2& truth, const Eigen::Matrix3d& bound) {
-    squares_m2 += std::pow(distance_m(match.map_from_laser, truth), 2);
-    squares_rad2 += std::pow(heading_difference_rad(match.map_from_laser, truth), 2);
-    bound_m2 += bound(0, 0) + bound(1, 1);
-    bound_rad2 += bound(2, 2);
-    nees_sum += eval::nees(match.map_from_laser, match.covariance, truth).value();
-    ++count;
-  }
-  double position_ratio() const { return std::sqrt(squares_m2 / bound_m2); }
-  double heading_ratio() const { return std::sqrt(squares_rad2 / bound_rad2); }
-  double mean_nees() const { return nees_sum / count; }
-  double nees_slack() const { return 2.58 * std::sqrt(6.0 / count); }
-};
+using test::Trial;
+using Room = test::WallRoom;
 
 TEST(Walls, ReachTheBoundInRoomsOfAllKinds) {
   for (const FloorPlan& plan : {rectangle(4, 4), rectangle(10, 6), niche_room(), rectangle(30, 20)}) {

@@ -24,6 +24,22 @@ inline FloorPlan niche_room() {
            {{2.0, 3.4}, {2.5, 3.4}, {2.5, 3.9}, {2.0, 3.9}, {2.0, 3.4}}}};
 }
 
+inline FloorPlan l_room() { return {{{{0, 0}, {9, 0}, {9, 3.5}, {4, 3.5}, {4, 8}, {0, 8}, {0, 0}}}}; }
+
+/// A hall with two rows of racks of different lengths, 1.1 m deep, and a post: aisles of 2.4 m.
+inline FloorPlan rack_hall() {
+  FloorPlan plan = rectangle(24, 14);
+  const auto add = [&](double x, double y, double width, double depth) {
+    plan.walls.push_back({{x, y}, {x + width, y}, {x + width, y + depth}, {x, y + depth}, {x, y}});
+  };
+  for (const double y : {2.4, 5.9, 9.4}) {
+    add(2.5, y, 8.1, 1.1);
+    add(13.0, y, 8.1 - 0.3 * y, 1.1);
+  }
+  add(22.0, 11.5, 0.3, 0.3);
+  return plan;
+}
+
 /// A sweep of 1081 beams over 270 degrees from a pose, with Gaussian noise on the ranges.
 inline RawScan sweep(const RayCaster& walls, const Pose2& map_from_laser, double sigma_m, Rng& rng,
                      Stamp stamp = {}) {
