@@ -75,12 +75,12 @@ class PossibleLines {
 
 }  // namespace
 
-std::optional<DrawnLine> drawn_line(const std::vector<WallColumn>& columns) {
+std::optional<CellsLine> drawn_line(const std::vector<WallColumn>& columns) {
   if (columns.size() < kLeastDrawn) return std::nullopt;
   const auto [first, last] =
       std::minmax_element(columns.begin(), columns.end(),
                           [](const WallColumn& p, const WallColumn& q) { return p.along < q.along; });
-  DrawnLine line;
+  CellsLine line;
   line.middle = 0.5 * (first->along + last->along);
   const double rise = last->across - first->across;
   const double run = last->along - first->along;
@@ -113,7 +113,7 @@ std::optional<DrawnLine> drawn_line(const std::vector<WallColumn>& columns) {
   return std::nullopt;
 }
 
-std::optional<DrawnLine> drawn_line_of_most(const std::vector<WallColumn>& columns,
+std::optional<CellsLine> drawn_line_of_most(const std::vector<WallColumn>& columns,
                                             std::vector<WallColumn>& near) {
   near.clear();
   if (columns.size() < kLeastDrawn) return std::nullopt;

@@ -16,7 +16,7 @@ struct WallColumn {
 };
 
 /// The line of a wall that was drawn into cells, nearer to the axis `along` than to the other.
-struct DrawnLine {
+struct CellsLine {
   double middle = 0.0;  ///< along, of the columns that told it
   double across = 0.0;  ///< of the line, there
   double slope = 0.0;
@@ -32,11 +32,11 @@ struct DrawnLine {
 /// and Smeulders, "Discrete representation of straight lines", 1984: every cell that was drawn shuts out
 /// lines, and those left are a polygon of slope and offset, here cut out cell by cell; its centroid is the
 /// mean of what the line can be.
-std::optional<DrawnLine> drawn_line(const std::vector<WallColumn>& columns);
+std::optional<CellsLine> drawn_line(const std::vector<WallColumn>& columns);
 
 /// The same of most of the columns, the others belonging to what stands against the wall: those near the line
 /// through two of them that has most near it. Out: these are put into `near`.
-std::optional<DrawnLine> drawn_line_of_most(const std::vector<WallColumn>& columns,
+std::optional<CellsLine> drawn_line_of_most(const std::vector<WallColumn>& columns,
                                             std::vector<WallColumn>& near);
 
 }  // namespace beaconless

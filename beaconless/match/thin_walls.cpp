@@ -86,7 +86,9 @@ ThinWall ThinWalls::whole(ThinWall wall) const {
   for (int round = 0; round < kMostRounds; ++round) {
     collect(wall, columns);
     const auto grown = wall_of(columns, wall.is_along_x, near);
-    if (!grown || grown->to - grown->from <= wall.to - wall.from) break;
+    // What is won at the price of more slack is the wall next to it.
+    if (!grown || grown->line.slack > wall.line.slack || grown->to - grown->from <= wall.to - wall.from)
+      break;
     wall = *grown;
   }
   return wall;

@@ -14,7 +14,7 @@ namespace beaconless {
 
 /// A straight wall of a few cells across, in cells of its grid.
 struct ThinWall {
-  DrawnLine line;
+  CellsLine line;
   double from = 0.0;        ///< along, the middle of the first column that tells it
   double to = 0.0;          ///< … of the last
   int cells = 1;            ///< across, as usual
