@@ -132,6 +132,19 @@ double variance_of_read(const FloorPlan& plan, const Segment2& wall) {
   return sigma_m * sigma_m / inverse_cos2;
 }
 
+/// Whether two walls meet at an angle. What ends near one of them is then nearer to it than to the other, a
+/// little way from where they meet.
+bool is_corner(const WallIndex::Wall& wall, const WallIndex::Wall& other) {
+  const double sine = wall.along.x() * other.along.y() - wall.along.y() * other.along.x();
+  if (std::abs(sine) < 0.7) return false;
+  const auto meets = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    return (p - q).squaredNorm() < 1e-12;
+  };
+  const Eigen::Vector2d end = wall.a + wall.length_m * wall.along;
+  const Eigen::Vector2d other_end = other.a + other.length_m * other.along;
+  return meets(wall.a, other.a) || meets(wall.a, other_end) || meets(end, other.a) || meets(end, other_end);
+}
+
 }  // namespace
 
 WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
@@ -165,37 +178,47 @@ WallIndex::WallIndex(const FloorPlan& plan, double reach_m, double cell_m)
   lists_ = std::move(divided.lists);
   cells_.shrink_to_fit();
   lists_.shrink_to_fit();
-  for (Wall& wall : walls_) find_clear_stretch(wall);
+  for (Wall& wall : walls_) find_clear_stretches(wall);
+  stretches_.shrink_to_fit();
 }
 
 /// By steps of a quarter of a cell. What is not in the list of a cell is further away than asked for.
-void WallIndex::find_clear_stretch(Wall& wall) const {
+void WallIndex::find_clear_stretches(Wall& wall) {
   const double clear_m2 = 0.5 * cell_m_ * cell_m_;
+  const double corner_m2 = 0.25 * clear_m2;
   const auto is_clear = [&](const Eigen::Vector2d& point) {
     const auto here = near(point);
     return std::all_of(here.begin(), here.end(), [&](std::uint32_t id) {
       const Wall& other = walls_[id];
       const double at_m = std::clamp(other.along.dot(point - other.a), 0.0, other.length_m);
-      return &other == &wall || (point - other.a - at_m * other.along).squaredNorm() > clear_m2;
+      const double least_m2 = is_corner(wall, other) ? corner_m2 : clear_m2;
+      return &other == &wall || (point - other.a - at_m * other.along).squaredNorm() > least_m2;
     });
   };
   const auto steps = static_cast<std::int64_t>(std::ceil(wall.length_m / (0.25 * cell_m_)));
   const double step_m = wall.length_m / static_cast<double>(steps);
-  double from_m = 0.0;
+  wall.first_clear = static_cast<std::uint32_t>(stretches_.size());
+  Stretch stretch;
   bool was_clear = false;
+  const auto end = [&] {
+    if (was_clear && stretch.to_m > stretch.from_m) stretches_.push_back(stretch);
+  };
   for (std::int64_t i = 0; i <= steps; ++i) {
     const double at_m = step_m * static_cast<double>(i);
     const bool is_clear_here = is_clear(wall.a + at_m * wall.along);
-    if (is_clear_here && !was_clear) from_m = at_m;
+    if (is_clear_here && !was_clear) stretch.from_m = at_m;
+    if (is_clear_here)
+      stretch.to_m = at_m;
+    else
+      end();
     was_clear = is_clear_here;
-    if (!is_clear_here || at_m - from_m <= wall.clear_to_m - wall.clear_from_m) continue;
-    wall.clear_from_m = from_m;
-    wall.clear_to_m = at_m;
   }
+  end();
+  wall.clear_count = static_cast<std::uint32_t>(stretches_.size()) - wall.first_clear;
 }
 
 std::size_t WallIndex::memory_bytes() const {
-  return walls_.capacity() * sizeof(Wall) +
+  return walls_.capacity() * sizeof(Wall) + stretches_.capacity() * sizeof(Stretch) +
          (tiles_.capacity() + cells_.capacity() + lists_.capacity()) * sizeof(std::uint32_t);
 }
 

@@ -30,11 +30,23 @@ class WallIndex {
     Eigen::Vector2d along;  ///< unit
     double length_m;
     double variance_m2 = 0.0;  ///< of where it lies across, as a plan that was read from a grid leaves it
-    /// From here to there, along the wall, any other is at least half a diagonal of a cell away: the longest
-    /// such stretch, where there are several.
-    double clear_from_m = 0.0;
-    double clear_to_m = 0.0;
+    std::uint32_t first_clear = 0;  ///< of its stretches, see clear_around()
+    std::uint32_t clear_count = 0;
   };
+
+  /// A part of a wall along which every other is at least half a diagonal of a cell away, or half of that
+  /// from one that it meets at an angle.
+  struct Stretch {
+    double from_m = 0.0;
+    double to_m = 0.0;
+  };
+
+  /// The stretch of a wall in which a place along it lies; one of no length where there is none.
+  Stretch clear_around(const Wall& wall, double along_m) const {
+    for (std::uint32_t i = wall.first_clear; i < wall.first_clear + wall.clear_count; ++i)
+      if (along_m >= stretches_[i].from_m && along_m <= stretches_[i].to_m) return stretches_[i];
+    return {};
+  }
 
   std::optional<SurfacePoint> nearest(const Eigen::Vector2d& point_map) const;
   /// Every wall that is nearest to some point of the cell in which this one lies, and a few more.
@@ -61,7 +73,7 @@ class WallIndex {
  private:
   static constexpr std::uint32_t kTile = 8;  // cells along each side of a tile
 
-  void find_clear_stretch(Wall& wall) const;
+  void find_clear_stretches(Wall& wall);
 
   std::vector<Wall> walls_;
   double reach_m_ = 0.0;
@@ -74,6 +86,7 @@ class WallIndex {
   std::size_t tile_columns_ = 0;
   std::vector<std::uint32_t> tiles_;  // twice the number of a tile's first cell, and 1 if it is divided
   std::vector<std::uint32_t> cells_;  // where in lists_ the list of each begins
+  std::vector<Stretch> stretches_;    // of all walls
   std::vector<std::uint32_t> lists_;  // how many walls, then which; cells of a tile share what is the same
 };
 

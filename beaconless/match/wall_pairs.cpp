@@ -38,6 +38,7 @@ struct Ray {
 /// The wall that one beam hits.
 struct Hit {
   const WallIndex::Wall* wall = nullptr;
+  WallIndex::Stretch clear{};                                   // of the wall, around where it is hit
   double across = 0.0;                                          // sine from the wall to the beam
   double nearest_m2 = std::numeric_limits<double>::infinity();  // squared distance of the end to any wall
 };
@@ -62,6 +63,7 @@ inline Beside beside(const WallIndex::Wall& wall, const Ray& ray) {
 inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
   Hit best;
   double best_beyond_m = std::numeric_limits<double>::infinity();
+  double best_along_m = 0.0;
   bool is_best_missed = false;
   for (const std::uint32_t id : walls.near({ray.end_x, ray.end_y})) {
     const WallIndex::Wall& wall = walls.wall(id);
@@ -84,11 +86,13 @@ inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
       if (is_met == is_missed) continue;
     }
     best_beyond_m = beyond;
+    best_along_m = along;
     is_best_missed = is_missed;
     best.wall = &wall;
     best.across = across;
   }
   if (std::abs(best.across) < gate.least_cos) best.wall = nullptr;
+  if (best.wall != nullptr) best.clear = walls.clear_around(*best.wall, best_along_m);
   return best;
 }
 
@@ -100,7 +104,7 @@ inline bool hits_again(Hit& hit, const Ray& ray, double near_m, double least_cos
   hit.nearest_m2 = side * side;
   // |side| below near · |across| is |beyond| below near.
   return std::abs(side) < near_m * std::abs(across) && std::abs(across) > least_cos &&
-         along > hit.wall->clear_from_m && along < hit.wall->clear_to_m;
+         along > hit.clear.from_m && along < hit.clear.to_m;
 }
 
 /// What a range to a wall tells, as information.

@@ -5,8 +5,12 @@ namespace beaconless {
 namespace {
 
 void points_at_once(const Scan& scan, std::vector<Eigen::Vector2d>& points) {
+  points.resize(scan.hit_count());
+  const std::span<const float> x_m = scan.x_m();
+  const std::span<const float> y_m = scan.y_m();
+  Eigen::Vector2d* to = points.data();
   for (std::size_t beam = 0; beam < scan.size(); ++beam)
-    if (scan.is_hit(beam)) points.push_back(scan.point(beam));
+    if (scan.is_hit(beam)) *to++ = {x_m[beam], y_m[beam]};
 }
 
 }  // namespace
