@@ -36,8 +36,10 @@ struct Room {
   const char* drive;
   const char* room;
   std::size_t scans;
-  double rmse_m;  ///< allowed on the plan
-  double ratio;   ///< of `walls` to the bound, allowed on the plan
+  double rmse_m;    ///< allowed on the plan
+  double ratio;     ///< of `walls` to the bound, allowed on the plan
+  double fine_m;    ///< RMSE of the best other program on a grid of 2.5 cm …
+  double coarse_m;  ///< … and of 5 cm
 };
 
 void PrintTo(const Room& room, std::ostream* out) { *out << room.drive; }
@@ -80,17 +82,22 @@ TEST_P(SimulatedRoom, WallsReachTheBoundOnItsPlan) {
   EXPECT_LE(told["error"]["position_m"]["max"].get<double>(), 4.0 * 0.46e-3 + 1e-3);
 }
 
-TEST_P(SimulatedRoom, NoScanIsLostOnItsGrid) {
+TEST_P(SimulatedRoom, NoOtherProgramIsNearerOnItsGrids) {
   SKIP_WITHOUT("sim_rooms");
-  const auto told = localize(words_on("_r025.yaml"));
-  EXPECT_EQ(told["scans"], GetParam().scans);
-  EXPECT_FALSE(told["status_counts"].contains("lost")) << told["status_counts"];
+  for (const auto& [grid, best_m] :
+       {std::pair{"_r025.yaml", GetParam().fine_m}, std::pair{"_r050.yaml", GetParam().coarse_m}}) {
+    const auto told = localize(words_on(grid));
+    EXPECT_EQ(told["status_counts"], (nlohmann::json{{"ok", GetParam().scans}})) << grid;
+    EXPECT_LE(told["error"]["position_m"]["rmse"].get<double>(), best_m) << grid;
+  }
 }
 
-// The bound for a1 is 0.63 mm.
+// The bound for a1 is 0.63 mm. Its walls run along the grid of 5 cm and are drawn 12.5 mm off to two sides:
+// nobody is nearer than 17.7 mm there, and that is told with no more digits.
 INSTANTIATE_TEST_SUITE_P(Rooms, SimulatedRoom,
-                         testing::Values(Room{"a1_static", "a_room4x3", 400, 0.0010, 1.05},
-                                         Room{"b1_ellipse", "b_room12x8", 2000, 0.0015, 1.10}),
+                         testing::Values(Room{"a1_static", "a_room4x3", 400, 0.0010, 1.05, 0.0035, 0.0178},
+                                         Room{"b1_ellipse", "b_room12x8", 2000, 0.0015, 1.10, 0.00073,
+                                              0.0012}),
                          [](const auto& room) { return std::string(room.param.drive); });
 
 /// A tricycle AGV in a hall; a bag, so only where bags can be read.
@@ -114,10 +121,13 @@ class Hall : public Drives {
 };
 
 TEST_F(Hall, HighScannerOnAPlanDrawnByHand) {
-  const auto told = localize({bag(), "--topic", "/driver_laser_navigation/laser_scan", "--map",
-                              recorded("jarvis/maps/i-108_10mm.yaml"), "--base-from-laser", "0.194,0,0",
-                              "--start-from", reflectors(), "--reference", reflectors()});
+  const auto told =
+      localize({bag(), "--topic", "/driver_laser_navigation/laser_scan", "--map",
+                recorded("jarvis/maps/i-108_10mm.yaml"), "--base-from-laser", "0.194,0,0", "--stamp-is",
+                "last", "--start-from", reflectors(), "--reference", reflectors()});
   expect_localized(told, 204);
+  EXPECT_LE(told["error"]["aligned"]["position_m"]["mean"].get<double>(), 0.015);
+  EXPECT_LE(told["error"]["heading_deg"]["mean"].get<double>(), 0.25);
 }
 
 TEST_F(Hall, LowScannerOnAGridOfItsOwnEvenScans) {
@@ -143,8 +153,25 @@ TEST_F(Drives, ABuildingByEverySecondScanOnAGridOfTheOthers) {
                                          io::read_tum(folder.path("poses.tum")).value());
   double near = 0.0;
   for (const eval::PoseError& error : evaluation.errors)
-    if (error.position_m() <= 0.25 && std::abs(degrees(error.heading_rad)) <= 4.0) ++near;
-  EXPECT_GE(near, 0.95 * scans);
+    if (error.position_m() <= 0.20 && std::abs(degrees(error.heading_rad)) <= 3.0) ++near;
+  EXPECT_GE(near, 0.99 * scans);
+  EXPECT_FALSE(told["status_counts"].contains("lost")) << told["status_counts"];
+}
+
+/// The log's own poses, those of a SLAM, miss the relations by 0.059 m and 0.71 degrees on average.
+TEST_F(Drives, ABuildingByEveryScanKeepsTheOfficialRelations) {
+  const char* name = "fr079/freiburg-079-corrected.log.gz";
+  SKIP_WITHOUT(name);
+  const std::string log = recorded(name);
+  const std::string grid = build_map({log, "--poses", "recorded", "--scans", "0::2"});
+  const auto located = localize({log, "--map", grid, "--start-from", "recorded"});
+  EXPECT_FALSE(located["status_counts"].contains("lost")) << located["status_counts"];
+  const auto told = run({"--json", "evaluate", folder.path("run/trajectory.tum"), "--relations",
+                         recorded("fr079/fr079.relations.scanindex"), "--recording", log})
+                        .json();
+  EXPECT_EQ(told["relations"], 1638) << told;
+  EXPECT_LT(told["translation_m"]["mean"].get<double>(), 0.059);
+  EXPECT_LT(told["rotation_deg"]["mean"].get<double>(), 0.71);
 }
 
 }  // namespace
