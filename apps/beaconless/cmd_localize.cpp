@@ -45,7 +45,7 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   command
       ->add_option("--sweep-time", words->scan.sweep_time_s,
                    "From a sweep's first beam to its last [s], where the source does not tell or tells wrong")
-      ->check(not_from_zero_on, "NUMBER >= 0");
+      ->check(not_a_sweep, "0 <= NUMBER < 60");
   command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
       ->check(not_from_zero_on, "NUMBER >= 0");
   command

@@ -49,7 +49,7 @@ std::vector<std::string> shorthands(const LocalizeWords& words) {
 Result<Done> check_effect(const LocalizeWords& words, const std::string& method) {
   const bool is_icp = method.starts_with("icp-");
   const bool is_of_corners = method.starts_with("icp-corners");
-  const bool is_of_whole_scans = method.ends_with("-full");
+  const bool is_of_whole_scans = method == "walls" || method.ends_with("-full");
   const auto refused = [&](const char* option, const char* for_whom) {
     return Error{option, "it changes nothing about " + method,
                  std::string("leave it out; it is for ") + for_whom};
@@ -197,6 +197,9 @@ int localize_run(const Console& console, const LocalizeWords& words) {
     start_at = *std::move(alone);
     pose_problems.forget();
   }
+  if (words.scan.stamp_is != "first" && first->scan.sweep_time_s() == 0.0)
+    pose_problems.add({words.recording, "its scans tell no time per beam, so --stamp-is " +
+                                            words.scan.stamp_is + " changes nothing; --sweep-time tells it"});
   const auto start = start_pose(words, *recording, *first, pose_problems);
   if (!start) pose_problems.report(console);
   if (!start) return console.fail(start.error(), words.start.empty() ? exit_data : exit_usage);

@@ -49,6 +49,13 @@ std::string not_from_zero_on(const std::string& text) {
   return number && std::isfinite(*number) && *number >= 0.0 ? "" : "\"" + text + "\" is no number from 0 on";
 }
 
+std::string not_a_sweep(const std::string& text) {
+  const auto number = parse_double(text);
+  return number && *number >= 0.0 && *number < 60.0
+             ? ""
+             : "\"" + text + "\" is no time of a sweep, from 0 to 60 s";
+}
+
 ScanGate ScanWords::gate() const {
   return {.stamp_is = stamp_is == "last"     ? StampIs::last_beam
                       : stamp_is == "middle" ? StampIs::middle_beam

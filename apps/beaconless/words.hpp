@@ -26,6 +26,7 @@ Result<Done> set_parameters(const std::vector<Field>& fields, const std::vector<
 /// What keeps an option's text from being a finite number above 0 (or from 0 on); "" when nothing does.
 std::string not_positive(const std::string& text);
 std::string not_from_zero_on(const std::string& text);
+std::string not_a_sweep(const std::string& text);
 
 /// The options that say which scans of a recording to take, and how; shared by the verbs that read
 /// recordings.

@@ -32,9 +32,9 @@ void look_at_stamps(const RecordingSummary& s, Findings& found) {
                                  s.gaps, s.longest_gap_s, s.rate_hz),
                      "a prediction across a gap is weak; expect to need a search there if the robot moved"});
   if (s.scans > 0 && !s.tells_beam_times)
-    found.push_back(
-        {Weight::note, "no time per beam is told, so that a sweep counts as one moment",
-         "at 1 m/s a sweep of 0.1 s is bent by up to 0.1 m; drive slowly, or record time_increment"});
+    found.push_back({Weight::note, "no time per beam is told, so that a sweep counts as one moment",
+                     "at 1 m/s a sweep of 0.1 s is bent by up to 0.1 m; tell it by --sweep-time, or record "
+                     "time_increment"});
 }
 
 void look_at_ranges(const RecordingSummary& s, Findings& found) {

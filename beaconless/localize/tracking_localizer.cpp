@@ -53,15 +53,21 @@ std::string_view reason_of(Status status, bool was_lost) {
                   : "less of the scan lies on the map than is usual";
 }
 
-/// Whether two fits are two places.
-bool is_elsewhere(const MatchResult& a, const MatchResult& b) {
-  return distance_m(a.map_from_laser, b.map_from_laser) > kElsewhere_m ||
-         heading_difference_rad(a.map_from_laser, b.map_from_laser) > kElsewhere_rad;
+/// Whether two poses are two places.
+bool is_elsewhere(const Pose2& a, const Pose2& b) {
+  return distance_m(a, b) > kElsewhere_m || heading_difference_rad(a, b) > kElsewhere_rad;
 }
 
 /// Whether a scan fits one place about as well as another, so that it cannot tell which it is.
 bool is_as_good(const MatchResult& a, const MatchResult& b) {
   return a.misfit < kAsGood * b.misfit + kAsGoodMore;
+}
+
+/// What it adds to a covariance that the pose may be another one as well.
+Eigen::Matrix3d way_to(const Pose2& other, const Pose2& pose) {
+  const Eigen::Vector3d way(other.x_m - pose.x_m, other.y_m - pose.y_m,
+                            wrap_angle(other.theta_rad - pose.theta_rad));
+  return way * way.transpose();
 }
 
 /// Whether the motion so far no longer tells where the robot is.
@@ -88,8 +94,10 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   motion_.start_at(map_from_base);
   health_ = Health(config_.health);
   matcher_->forget();
-  rival_.reset();
+  rivals_.clear();
+  tried_.clear();
   last_scan_.reset();
+  last_ = PoseEstimate{};
   last_.map_from_base = map_from_base;
   started_ = true;
   first_scan_ = true;
@@ -115,8 +123,11 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   bent_.reset();
   const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
   // 2. What the laser saw.
-  observe(*scan, guess, prediction);
+  observe(*scan, guess,
+          moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser),
+          prediction);
   const bool is_anywhere = first_scan_ || health_.lost();
+  tried_.clear();
   const Pose2 before = last_.map_from_base * config_.base_from_laser;
   // 3. Fit it to the map from there.
   MatchResult match = fit_from(guess);
@@ -132,18 +143,21 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
     const StartPose there{guess};
     whole_scan = fit_whole_scan({&there, 1}, prediction);
   }
-  // 5. Where the fit tells another motion during the sweep, see the sweep by that, once.
+  // 5. Where the fit tells another motion during the sweep, see the sweep by that.
   if (reason_against(match, prediction).empty()) match = fit_by_new_motion(match, prediction, *scan);
-  // 6. Whether another place fits as well: looked for where the robot could be anywhere, and then followed.
+  // 6. Whether another place fits as well: looked for where the robot could be anywhere, then followed,
+  //    and taken once it fits better.
+  bool is_other = false;
   if (is_anywhere)
-    look_for_rival(match);
-  else if (rival_)
-    follow_rival(match, *rival_ * before.inverse() * match.map_from_laser);
+    look_for_rivals(match);
+  else if (!rivals_.empty())
+    is_other = follow_rivals(match, before.inverse() * match.map_from_laser);
   // 7. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
-  std::string_view doubt = reason_against(match, prediction);
+  std::string_view doubt = is_other ? std::string_view{} : reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
-  last_ = doubt.empty() ? accept(match, prediction, *scan, rival_ ? kRivalled : matcher_->reservation(match))
+  last_ = doubt.empty() ? accept(match, prediction, *scan,
+                                 is_other || !rivals_.empty() ? kRivalled : matcher_->reservation(match))
           : whole_scan ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
   first_scan_ = false;
@@ -193,16 +207,15 @@ bool TrackingLocalizer::is_swept(const Scan& scan) const {
   return config_.deskew && matcher_->judges_whole_scan() && scan.sweep_time_s() > 0.0;
 }
 
-void TrackingLocalizer::observe(const Scan& scan, const Pose2& map_from_laser, const Prediction& prediction) {
+void TrackingLocalizer::observe(const Scan& scan, const Pose2& map_from_laser,
+                                const Eigen::Matrix3d& covariance, const Prediction& prediction) {
   const Eigen::Vector3d twist = laser_from_base_.adjoint() * prediction.motion.per_s;
   points_at_stamp(scan, is_swept(scan) ? Twist2{twist.x(), twist.y(), twist.z()} : Twist2{}, points_);
   const auto far = std::count_if(points_.begin(), points_.end(), [](const Eigen::Vector2d& point) {
     return point.squaredNorm() > kCovered_m * kCovered_m;
   });
   is_covered_ = static_cast<double>(far) < kCoveredShare * static_cast<double>(scan.size());
-  matcher_->observe(
-      scan, points_, map_from_laser,
-      moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser));
+  matcher_->observe(scan, points_, map_from_laser, covariance);
 }
 
 ToldTwist TrackingLocalizer::motion_during(const Scan& scan, MotionFilter motion) const {
@@ -216,7 +229,9 @@ std::optional<ToldTwist> TrackingLocalizer::told_by_sweep(const Scan& scan, cons
   times_s_.clear();
   for (std::size_t beam = 0; beam < scan.size(); ++beam)
     if (scan.is_hit(beam)) times_s_.push_back(scan.beam_time_s(beam));
-  const SweepNoise noise{config_.icp.sigma_m, config_.icp.map_sigma_m, match.scale_m};
+  const bool is_walls = config_.method == "walls";
+  const SweepNoise noise{is_walls ? config_.walls.sigma_m : config_.icp.sigma_m,
+                         is_walls ? config_.walls.map_sigma_m : config_.icp.map_sigma_m, match.scale_m};
   const auto bent = twist_of_sweep(points_, times_s_, *map_, match.map_from_laser, noise);
   if (!bent) return std::nullopt;
   const Eigen::Matrix3d to_base = config_.base_from_laser.adjoint();
@@ -243,7 +258,8 @@ MatchResult TrackingLocalizer::fit_by_new_motion(const MatchResult& first, Predi
     const Eigen::Vector3d skew = half_s * (motion.per_s - prediction.motion.per_s);
     prediction.motion = motion;
     if (skew.head<2>().norm() < kSkew_m && std::abs(skew.z()) < kSkew_rad) break;
-    observe(scan, match.map_from_laser, prediction);
+    observe(scan, match.map_from_laser, match.covariance + Eigen::Matrix3d(skew.cwiseAbs2().asDiagonal()),
+            prediction);
     const MatchResult next = fit_from(match.map_from_laser);
     if (!next.usable()) break;
     match = next;
@@ -259,9 +275,11 @@ Eigen::Matrix3d TrackingLocalizer::sweep_covariance(const PoseEstimate& estimate
   const double half_s = 0.5 * scan.sweep_time_s();
   Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
   to_map.topLeftCorner<2, 2>() = estimate.map_from_base.rotation();
-  if (is_swept(scan)) return half_s * half_s * to_map * prediction.motion.covariance * to_map.transpose();
+  const Eigen::Matrix3d unknown =
+      half_s * half_s * to_map * prediction.motion.covariance * to_map.transpose();
+  if (is_swept(scan)) return unknown;
   const Eigen::Vector3d error = to_map * (half_s * prediction.motion.per_s);
-  return error * error.transpose();
+  return first_scan_ ? unknown : Eigen::Matrix3d(error * error.transpose());
 }
 
 MatchResult TrackingLocalizer::fit_from(const Pose2& guess) {
@@ -310,7 +328,7 @@ MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const 
   const bool anywhere = first_scan_ || health_.lost();
   MatchResult best = first;
   bool best_is_first = true;
-  tried_.assign(1, first);
+  tried_.push_back(first);
   if (!anywhere && is_jump(first, prediction)) best.misfit = 1.0;
   for (const StartPose& start : starts) {
     const MatchResult other = fit(start.map_from_laser);
@@ -323,20 +341,34 @@ MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const 
   return best;
 }
 
-void TrackingLocalizer::look_for_rival(const MatchResult& taken) {
-  rival_.reset();
-  double least = 1.0;
-  for (const MatchResult& other : tried_) {
-    if (!other.usable() || !is_elsewhere(other, taken) || other.misfit > least) continue;
-    least = other.misfit;
-    if (is_as_good(other, taken)) rival_ = other.map_from_laser;
-  }
+void TrackingLocalizer::look_for_rivals(const MatchResult& taken) {
+  rivals_.clear();
+  for (const MatchResult& other : tried_)
+    if (other.usable() && is_as_good(other, taken)) add_rival(other, taken);
 }
 
-void TrackingLocalizer::follow_rival(const MatchResult& taken, const Pose2& predicted) {
-  const MatchResult rival = fit_from(predicted);
-  const bool is_one = rival.usable() && is_elsewhere(rival, taken) && is_as_good(rival, taken);
-  rival_ = is_one ? std::optional(rival.map_from_laser) : std::nullopt;
+void TrackingLocalizer::add_rival(const MatchResult& rival, const MatchResult& taken) {
+  if (!is_elsewhere(rival.map_from_laser, taken.map_from_laser)) return;
+  const bool is_known = std::any_of(rivals_.begin(), rivals_.end(), [&](const Pose2& known) {
+    return !is_elsewhere(rival.map_from_laser, known);
+  });
+  if (!is_known) rivals_.push_back(rival.map_from_laser);
+}
+
+bool TrackingLocalizer::follow_rivals(MatchResult& taken, const Pose2& moved) {
+  tried_.clear();
+  bool is_other = false;
+  for (const Pose2& before : rivals_) {
+    MatchResult rival = fit_from(before * moved);
+    if (!rival.usable() || !is_elsewhere(rival.map_from_laser, taken.map_from_laser)) continue;
+    if (!is_as_good(taken, rival)) {
+      std::swap(rival, taken);
+      is_other = true;
+    }
+    tried_.push_back(rival);
+  }
+  look_for_rivals(taken);
+  return is_other;
 }
 
 std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const StartPose> starts,
@@ -345,6 +377,7 @@ std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const Sta
   const MatchResult best = best_of(starts, MatchResult{}, prediction, [&](const Pose2& start) {
     return match_icp(points_, *map_, start, config_.icp, scratch_);
   });
+  tried_.clear();  // those were fits of another kind than the method's
   if (!reason_to_coast(best, prediction).empty()) return std::nullopt;
   return best;
 }
@@ -375,13 +408,17 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   }
   // A wrong motion moves this pose and the next one alike, which the filter compares.
   const Eigen::Matrix3d compared = is_swept(scan) ? estimate.covariance : estimate.covariance + swept;
-  estimate.covariance = symmetric(estimate.covariance + swept);
+  estimate.covariance = estimate.covariance + swept;
+  for (const Pose2& rival : rivals_)
+    estimate.covariance += way_to(rival * laser_from_base_, estimate.map_from_base);
+  estimate.covariance = symmetric(estimate.covariance);
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
   // 4. What carries over to the next scan.
   const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
   if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);
-  if (caveat.empty())
+  // Wherever the robot is, one of two like places tells how it moves as well as the other.
+  if (caveat.empty() || (!is_open && caveat == kRivalled && !is_jump(match, prediction)))
     motion_.correct(scan.stamp(), estimate.map_from_base, compared);
   else
     motion_.hold(scan.stamp(), estimate.map_from_base, compared);

@@ -36,10 +36,12 @@ class TrackingLocalizer final : public Localizer {
   PoseEstimate update(const Event& event) override;
 
  private:
-  void observe(const Scan& scan, const Pose2& map_from_laser, const Prediction& prediction);
+  void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,
+               const Prediction& prediction);
   MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
-  void look_for_rival(const MatchResult& taken);
-  void follow_rival(const MatchResult& taken, const Pose2& predicted);
+  void look_for_rivals(const MatchResult& taken);
+  void add_rival(const MatchResult& rival, const MatchResult& taken);
+  bool follow_rivals(MatchResult& taken, const Pose2& moved);
   bool is_swept(const Scan& scan) const;
   ToldTwist motion_during(const Scan& scan, MotionFilter motion) const;
   std::optional<ToldTwist> told_by_sweep(const Scan& scan, const MatchResult& match,
@@ -71,7 +73,7 @@ class TrackingLocalizer final : public Localizer {
   MotionFilter motion_;
   OdometryTrack odometry_;
   std::vector<MatchResult> tried_;  // by the last search
-  std::optional<Pose2> rival_;      // map_from_laser of another place that fits as well
+  std::vector<Pose2> rivals_;       // map_from_laser of other places that fit as well
   std::optional<ToldTwist> bent_;   // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
   Health health_;

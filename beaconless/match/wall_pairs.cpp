@@ -70,7 +70,7 @@ inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
     const auto [along, side, across] = beside(wall, ray);
     const double outside = std::max({0.0, -along, along - wall.length_m});
     best.nearest_m2 = std::min(best.nearest_m2, side * side + outside * outside);
-    if (std::abs(side) > gate.distance_m || std::abs(across) < kParallel) continue;
+    if (std::abs(side) > gate.distance_m || !(std::abs(across) >= kParallel)) continue;
     const double beyond = side / across;  // of the beam's end, along the beam
     const double at = along - beyond * (wall.along.x() * ray.direction_x + wall.along.y() * ray.direction_y);
     if (at < -gate.slack_m || at > wall.length_m + gate.slack_m) continue;
@@ -91,7 +91,7 @@ inline Hit meet(const WallIndex& walls, const Ray& ray, const Gate& gate) {
     best.wall = &wall;
     best.across = across;
   }
-  if (std::abs(best.across) < gate.least_cos) best.wall = nullptr;
+  if (!(std::abs(best.across) >= gate.least_cos)) best.wall = nullptr;
   if (best.wall != nullptr) best.clear = walls.clear_around(*best.wall, best_along_m);
   return best;
 }

@@ -16,11 +16,11 @@ constexpr double kStill_m = 1e-4;  // a step below both is the last: the next on
 constexpr double kStill_rad = 5e-5;
 constexpr double kMoved_sigma = 0.25;  // ends of beams that move more than this are paired again
 constexpr double kLeastCurvature = 0.5;
-constexpr double kSettled = 0.95;        // of the scale before, and it narrows no more
-constexpr double kNarrowing = 2.0;       // of the scale from step to step, at most
-constexpr double kMoreThanNoise = 1.08;  // a scale above this is not the laser's alone
-constexpr double kAcross = 0.75;         // of what is off along the beams, over all angles of incidence
-constexpr double kPriorBeams = 10.0;     // that fit as well as the noise says, beside those of the scan
+constexpr double kSettled = 0.95;     // of the scale before, and it narrows no more
+constexpr double kNarrowing = 2.0;    // of the scale from step to step, at most
+constexpr double kByChance = 2.5;     // over the root of the number of beams, a scale may be above 1 …
+constexpr double kAcross = 0.75;      // of what is off along the beams, over all angles of incidence
+constexpr double kPriorBeams = 10.0;  // that fit as well as the noise says, beside those of the scan
 
 /// About the mean of z² under Tukey's weights for a Gaussian, divided by the mean weight: 1 for a wide cut.
 double expected_square(double cut) { return 1.0 - 4.0 / (cut * cut + 1.0); }
@@ -141,7 +141,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const bool has_moved = moved_m > kMoved_sigma * noise_m;
     const bool is_settled = !has_moved && next_gate_m > 0.8 * gate_m;
     // 4. What scatters more than the laser does is the map: its walls are off across, not along the beams.
-    const bool is_off = fit.scale > kMoreThanNoise && !is_map_blamed;
+    const double by_chance = kByChance / std::sqrt(static_cast<double>(result.pair_count));
+    const bool is_off = fit.scale > 1.0 + by_chance && !is_map_blamed;
     if (is_settled && !is_off) break;
     if (is_settled) {
       const double off_m = kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0);
