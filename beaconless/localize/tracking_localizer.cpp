@@ -275,8 +275,7 @@ Eigen::Matrix3d TrackingLocalizer::sweep_covariance(const PoseEstimate& estimate
   const double half_s = 0.5 * scan.sweep_time_s();
   Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
   to_map.topLeftCorner<2, 2>() = estimate.map_from_base.rotation();
-  const Eigen::Matrix3d unknown =
-      half_s * half_s * to_map * prediction.motion.covariance * to_map.transpose();
+  Eigen::Matrix3d unknown = half_s * half_s * to_map * prediction.motion.covariance * to_map.transpose();
   if (is_swept(scan)) return unknown;
   const Eigen::Vector3d error = to_map * (half_s * prediction.motion.per_s);
   return first_scan_ ? unknown : Eigen::Matrix3d(error * error.transpose());
