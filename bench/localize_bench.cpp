@@ -25,7 +25,8 @@ struct Case {
 };
 
 std::unique_ptr<Localizer> localizer_of(const Case& run) {
-  return make_localizer({.base_from_laser = run.drive->base_from_laser}, *run.map).value();
+  return make_localizer({.method = "icp-full", .base_from_laser = run.drive->base_from_laser}, *run.map)
+      .value();
 }
 
 /// Counts how a run went, because a lost robot's time is no figure of a robot that tracks.

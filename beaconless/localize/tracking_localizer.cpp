@@ -70,6 +70,17 @@ Eigen::Matrix3d way_to(const Pose2& other, const Pose2& pose) {
   return way * way.transpose();
 }
 
+/// Whether hardly a beam comes from far away. Mostly the first few tell.
+bool is_covered(std::span<const Eigen::Vector2d> points, std::size_t beams) {
+  const double enough = kCoveredShare * static_cast<double>(beams);
+  double far = 0.0;
+  for (const Eigen::Vector2d& point : points) {
+    if (far >= enough) break;
+    if (point.squaredNorm() > kCovered_m * kCovered_m) far += 1.0;
+  }
+  return far < enough;
+}
+
 /// Whether the motion so far no longer tells where the robot is.
 bool is_vague(const Prediction& prediction) {
   return prediction.covariance.topLeftCorner<2, 2>().trace() > kVague_m * kVague_m ||
@@ -211,10 +222,7 @@ void TrackingLocalizer::observe(const Scan& scan, const Pose2& map_from_laser,
                                 const Eigen::Matrix3d& covariance, const Prediction& prediction) {
   const Eigen::Vector3d twist = laser_from_base_.adjoint() * prediction.motion.per_s;
   points_at_stamp(scan, is_swept(scan) ? Twist2{twist.x(), twist.y(), twist.z()} : Twist2{}, points_);
-  const auto far = std::count_if(points_.begin(), points_.end(), [](const Eigen::Vector2d& point) {
-    return point.squaredNorm() > kCovered_m * kCovered_m;
-  });
-  is_covered_ = static_cast<double>(far) < kCoveredShare * static_cast<double>(scan.size());
+  is_covered_ = is_covered(points_, scan.size());
   matcher_->observe(scan, points_, map_from_laser, covariance);
 }
 
