@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "beaconless/geometry/pose_covariance.hpp"
+#include "beaconless/match/see_through.hpp"
 #include "beaconless/match/sweep_twist.hpp"
 #include "beaconless/scan/deskew.hpp"
 
@@ -42,6 +43,11 @@ constexpr double kElsewhere_rad = radians(5.0);
 constexpr double kAsGood = 1.4;  // times the misfit, and …
 constexpr double kAsGoodMore = 0.02;
 constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
+
+constexpr std::size_t kFollowed = 120;  // beams
+constexpr double kThroughWalls_share = 0.25;
+constexpr std::string_view kThroughWalls =
+    "a quarter of the beams would have to pass through walls of the map";
 
 constexpr std::string_view kOpenDirection =
     "the walls in view leave a direction open, which is held at the prediction";
@@ -106,6 +112,7 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   health_ = Health(config_.health);
   matcher_->forget();
   rivals_.clear();
+  is_through_walls_ = false;
   tried_.clear();
   last_scan_.reset();
   last_ = PoseEstimate{};
@@ -163,13 +170,16 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
     look_for_rivals(match);
   else if (!rivals_.empty())
     is_other = follow_rivals(match, before.inverse() * match.map_from_laser);
-  // 7. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
+  // 7. Whether beams would have to pass through walls there, which nothing in the way explains.
+  if (is_anywhere || is_through_walls_)
+    is_through_walls_ = see_through_share(points_, *map_, match.map_from_laser, points_.size() / kFollowed) >
+                        kThroughWalls_share;
+  // 8. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
   std::string_view doubt = is_other ? std::string_view{} : reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
-  last_ = doubt.empty() ? accept(match, prediction, *scan,
-                                 is_other || !rivals_.empty() ? kRivalled : matcher_->reservation(match))
-          : whole_scan ? stand_in(*whole_scan, prediction, *scan)
+  last_ = doubt.empty() ? accept(match, prediction, *scan, caveat_of(match, is_other))
+          : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
                         : coast(prediction, scan->stamp(), doubt);
   first_scan_ = false;
   last_scan_ = scan->stamp();
@@ -378,6 +388,11 @@ bool TrackingLocalizer::follow_rivals(MatchResult& taken, const Pose2& moved) {
   return is_other;
 }
 
+std::string_view TrackingLocalizer::caveat_of(const MatchResult& match, bool is_other) const {
+  if (is_other || !rivals_.empty()) return kRivalled;
+  return is_through_walls_ ? kThroughWalls : matcher_->reservation(match);
+}
+
 std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const StartPose> starts,
                                                              const Prediction& prediction) {
   if (matcher_->judges_whole_scan() || is_covered_) return std::nullopt;
@@ -425,7 +440,8 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
   if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);
   // Wherever the robot is, one of two like places tells how it moves as well as the other.
-  if (caveat.empty() || (!is_open && caveat == kRivalled && !is_jump(match, prediction)))
+  const bool is_of_place = caveat == kRivalled || caveat == kThroughWalls;
+  if (caveat.empty() || (!is_open && is_of_place && !is_jump(match, prediction)))
     motion_.correct(scan.stamp(), estimate.map_from_base, compared);
   else
     motion_.hold(scan.stamp(), estimate.map_from_base, compared);

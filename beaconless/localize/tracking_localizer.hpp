@@ -42,6 +42,7 @@ class TrackingLocalizer final : public Localizer {
   void look_for_rivals(const MatchResult& taken);
   void add_rival(const MatchResult& rival, const MatchResult& taken);
   bool follow_rivals(MatchResult& taken, const Pose2& moved);
+  std::string_view caveat_of(const MatchResult& match, bool is_other) const;
   bool is_swept(const Scan& scan) const;
   ToldTwist motion_during(const Scan& scan, MotionFilter motion) const;
   std::optional<ToldTwist> told_by_sweep(const Scan& scan, const MatchResult& match,
@@ -86,6 +87,7 @@ class TrackingLocalizer final : public Localizer {
   bool started_ = false;
   bool first_scan_ = true;
   bool is_covered_ = false;
+  bool is_through_walls_ = false;  // beams pass through walls where the robot is thought to be
   int lost_scans_ = 0;
 };
 

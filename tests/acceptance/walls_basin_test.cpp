@@ -98,8 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Offsets, ClutteredRoomBasin,
                                          Offset{"a_metre_45_degrees", 1.0, 45.0, 0.90, 1000}),
                          name_of);
 
-/// Do not hold yet: a place that explains half of one scan is ok at once, and among racks every aisle does.
-INSTANTIATE_TEST_SUITE_P(DISABLED_FarOffsets, ClutteredRoomBasin, testing::Values(kFar), name_of);
+/// Further than is searched: the robot is not found, and says so.
+INSTANTIATE_TEST_SUITE_P(FarOffsets, ClutteredRoomBasin, testing::Values(kFar), name_of);
 
 class RackHallBasin : public testing::TestWithParam<Offset> {};
 
@@ -117,6 +117,8 @@ TEST_P(RackHallBasin, OneScanTellsTheWayBack) {
 INSTANTIATE_TEST_SUITE_P(Offsets, RackHallBasin,
                          testing::Values(Offset{"half_a_metre_10_degrees", 0.5, 10.0, 0.95, 1000}), name_of);
 
+/// Does not hold yet for 13 of 500: among racks every aisle explains half of a scan and more, and the front
+/// of a rack is open enough to be looked through.
 INSTANTIATE_TEST_SUITE_P(DISABLED_FarOffsets, RackHallBasin, testing::Values(kFar), name_of);
 
 }  // namespace
