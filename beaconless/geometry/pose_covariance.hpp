@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "beaconless/geometry/pose2.hpp"
+
 namespace beaconless {
 
 /// The covariance of two independent opinions on one pose, the first of which may know nothing along some
@@ -13,6 +15,13 @@ namespace beaconless {
 /// direction; inverting the sum of matrices that hold 1e6 m² beside 1e-8 m² loses all digits of the small
 /// ones.
 Eigen::Matrix3d fused_covariance(const Eigen::Matrix3d& with_open_directions, const Eigen::Matrix3d& other);
+
+/// Turns (x, y, theta) from the axes of a pose to those that the pose is given in; its transpose turns back.
+inline Eigen::Matrix3d turn_of(const Pose2& pose) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = pose.rotation();
+  return turn;
+}
 
 /// A covariance without what rounding made of its symmetry.
 inline Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return 0.5 * (m + m.transpose()); }

@@ -38,10 +38,6 @@ constexpr double kUnsure_rad = 1e-3;
 const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
 const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
 
-constexpr double kElsewhere_m = 0.2;
-constexpr double kElsewhere_rad = radians(5.0);
-constexpr double kAsGood = 1.4;  // times the misfit, and …
-constexpr double kAsGoodMore = 0.02;
 constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
 
 constexpr std::size_t kFollowed = 120;  // beams
@@ -57,23 +53,6 @@ std::string_view reason_of(Status status, bool was_lost) {
   if (status == Status::lost) return "the scan does not fit the map here";
   return was_lost ? "a place that fits was found; more scans must agree"
                   : "less of the scan lies on the map than is usual";
-}
-
-/// Whether two poses are two places.
-bool is_elsewhere(const Pose2& a, const Pose2& b) {
-  return distance_m(a, b) > kElsewhere_m || heading_difference_rad(a, b) > kElsewhere_rad;
-}
-
-/// Whether a scan fits one place about as well as another, so that it cannot tell which it is.
-bool is_as_good(const MatchResult& a, const MatchResult& b) {
-  return a.misfit < kAsGood * b.misfit + kAsGoodMore;
-}
-
-/// What it adds to a covariance that the pose may be another one as well.
-Eigen::Matrix3d way_to(const Pose2& other, const Pose2& pose) {
-  const Eigen::Vector3d way(other.x_m - pose.x_m, other.y_m - pose.y_m,
-                            wrap_angle(other.theta_rad - pose.theta_rad));
-  return way * way.transpose();
 }
 
 /// Whether hardly a beam comes from far away. Mostly the first few tell.
@@ -113,7 +92,6 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   matcher_->forget();
   rivals_.clear();
   is_through_walls_ = false;
-  tried_.clear();
   last_scan_.reset();
   last_ = PoseEstimate{};
   last_.map_from_base = map_from_base;
@@ -145,7 +123,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
           moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser),
           prediction);
   const bool is_anywhere = first_scan_ || health_.lost();
-  tried_.clear();
+  rivals_.forget_notes();
   const Pose2 before = last_.map_from_base * config_.base_from_laser;
   // 3. Fit it to the map from there.
   MatchResult match = fit_from(guess);
@@ -167,9 +145,10 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   //    and taken once it fits better.
   bool is_other = false;
   if (is_anywhere)
-    look_for_rivals(match);
-  else if (!rivals_.empty())
-    is_other = follow_rivals(match, before.inverse() * match.map_from_laser);
+    rivals_.look(match);
+  else if (rivals_.any())
+    is_other = rivals_.follow(match, before.inverse() * match.map_from_laser,
+                              [&](const Pose2& place) { return fit_from(place); });
   // 7. Whether beams would have to pass through walls there, which nothing in the way explains.
   if (is_anywhere || is_through_walls_)
     is_through_walls_ = see_through_share(points_, *map_, match.map_from_laser, points_.size() / kFollowed) >
@@ -291,8 +270,7 @@ MatchResult TrackingLocalizer::fit_by_new_motion(const MatchResult& first, Predi
 Eigen::Matrix3d TrackingLocalizer::sweep_covariance(const PoseEstimate& estimate,
                                                     const Prediction& prediction, const Scan& scan) const {
   const double half_s = 0.5 * scan.sweep_time_s();
-  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
-  to_map.topLeftCorner<2, 2>() = estimate.map_from_base.rotation();
+  const Eigen::Matrix3d to_map = turn_of(estimate.map_from_base);
   Eigen::Matrix3d unknown = half_s * half_s * to_map * prediction.motion.covariance * to_map.transpose();
   if (is_swept(scan)) return unknown;
   const Eigen::Vector3d error = to_map * (half_s * prediction.motion.per_s);
@@ -345,12 +323,12 @@ MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const 
   const bool anywhere = first_scan_ || health_.lost();
   MatchResult best = first;
   bool best_is_first = true;
-  tried_.push_back(first);
+  rivals_.note(first);
   if (!anywhere && is_jump(first, prediction)) best.misfit = 1.0;
   for (const StartPose& start : starts) {
     const MatchResult other = fit(start.map_from_laser);
     if (!other.usable() || (!anywhere && is_jump(other, prediction))) continue;
-    tried_.push_back(other);
+    rivals_.note(other);
     if (best.usable() && other.misfit > best.misfit - (best_is_first ? kClearlyBetter : kBetter)) continue;
     best = other;
     best_is_first = false;
@@ -358,38 +336,8 @@ MatchResult TrackingLocalizer::best_of(std::span<const StartPose> starts, const 
   return best;
 }
 
-void TrackingLocalizer::look_for_rivals(const MatchResult& taken) {
-  rivals_.clear();
-  for (const MatchResult& other : tried_)
-    if (other.usable() && is_as_good(other, taken)) add_rival(other, taken);
-}
-
-void TrackingLocalizer::add_rival(const MatchResult& rival, const MatchResult& taken) {
-  if (!is_elsewhere(rival.map_from_laser, taken.map_from_laser)) return;
-  const bool is_known = std::any_of(rivals_.begin(), rivals_.end(), [&](const Pose2& known) {
-    return !is_elsewhere(rival.map_from_laser, known);
-  });
-  if (!is_known) rivals_.push_back(rival.map_from_laser);
-}
-
-bool TrackingLocalizer::follow_rivals(MatchResult& taken, const Pose2& moved) {
-  tried_.clear();
-  bool is_other = false;
-  for (const Pose2& before : rivals_) {
-    MatchResult rival = fit_from(before * moved);
-    if (!rival.usable() || !is_elsewhere(rival.map_from_laser, taken.map_from_laser)) continue;
-    if (!is_as_good(taken, rival)) {
-      std::swap(rival, taken);
-      is_other = true;
-    }
-    tried_.push_back(rival);
-  }
-  look_for_rivals(taken);
-  return is_other;
-}
-
 std::string_view TrackingLocalizer::caveat_of(const MatchResult& match, bool is_other) const {
-  if (is_other || !rivals_.empty()) return kRivalled;
+  if (is_other || rivals_.any()) return kRivalled;
   return is_through_walls_ ? kThroughWalls : matcher_->reservation(match);
 }
 
@@ -399,7 +347,7 @@ std::optional<MatchResult> TrackingLocalizer::fit_whole_scan(std::span<const Sta
   const MatchResult best = best_of(starts, MatchResult{}, prediction, [&](const Pose2& start) {
     return match_icp(points_, *map_, start, config_.icp, scratch_);
   });
-  tried_.clear();  // those were fits of another kind than the method's
+  rivals_.forget_notes();  // those were fits of another kind than the method's
   if (!reason_to_coast(best, prediction).empty()) return std::nullopt;
   return best;
 }
@@ -430,10 +378,8 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   }
   // A wrong motion moves this pose and the next one alike, which the filter compares.
   const Eigen::Matrix3d compared = is_swept(scan) ? estimate.covariance : estimate.covariance + swept;
-  estimate.covariance = estimate.covariance + swept;
-  for (const Pose2& rival : rivals_)
-    estimate.covariance += way_to(rival * laser_from_base_, estimate.map_from_base);
-  estimate.covariance = symmetric(estimate.covariance);
+  estimate.covariance =
+      symmetric(estimate.covariance + swept + rivals_.covariance(estimate.map_from_base, laser_from_base_));
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
   // 4. What carries over to the next scan.

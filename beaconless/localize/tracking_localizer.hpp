@@ -9,6 +9,7 @@
 
 #include "beaconless/localize/localizer.hpp"
 #include "beaconless/localize/localizer_config.hpp"
+#include "beaconless/localize/rivals.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
 #include "beaconless/map/nearness_pyramid.hpp"
 #include "beaconless/map/surface_map.hpp"
@@ -39,9 +40,6 @@ class TrackingLocalizer final : public Localizer {
   void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,
                const Prediction& prediction);
   MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
-  void look_for_rivals(const MatchResult& taken);
-  void add_rival(const MatchResult& rival, const MatchResult& taken);
-  bool follow_rivals(MatchResult& taken, const Pose2& moved);
   std::string_view caveat_of(const MatchResult& match, bool is_other) const;
   bool is_swept(const Scan& scan) const;
   ToldTwist motion_during(const Scan& scan, MotionFilter motion) const;
@@ -73,9 +71,8 @@ class TrackingLocalizer final : public Localizer {
   Pose2 laser_from_base_;
   MotionFilter motion_;
   OdometryTrack odometry_;
-  std::vector<MatchResult> tried_;  // by the last search
-  std::vector<Pose2> rivals_;       // map_from_laser of other places that fit as well
-  std::optional<ToldTwist> bent_;   // what the sweep at hand told of the motion during it
+  Rivals rivals_;
+  std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
   Health health_;
   IcpScratch scratch_;

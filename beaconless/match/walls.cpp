@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/match/observability.hpp"
 #include "beaconless/match/wall_pairs.hpp"
 
@@ -67,8 +68,7 @@ Eigen::Matrix3d covariance_of(const Fit& fit, const Observability& seen, const P
   const double count = std::max(fit.sums.weight, 1.0);
   const double influence = (fit.sums.squared_influence + kPriorBeams) / (count + kPriorBeams);
   const double curvature = std::clamp(fit.sums.curvature / count, 0.2, 1.0);
-  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
-  to_map.topLeftCorner<2, 2>() = pose.rotation();
+  const Eigen::Matrix3d to_map = turn_of(pose);
   Eigen::Matrix3d covariance = influence / (curvature * curvature) * seen.inverse() + seen.unknown();
   // The map's error does not average out over the beams of a wall.
   const double arm_m = arm_of(fit.sums);

@@ -84,8 +84,7 @@ Prediction MotionFilter::predict(Stamp stamp) const {
   if (!stamped_) return prediction;
   const double dt = elapsed_s(stamp);
   prediction.map_from_base = last_ * Pose2::exp(twist_of(dt * prediction.motion.per_s));
-  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
-  to_map.topLeftCorner<2, 2>() = last_.rotation();
+  const Eigen::Matrix3d to_map = turn_of(last_);
   // A robot that has kept its speed so far may still change it now.
   Eigen::Matrix3d motion = motion_.covariance;
   motion += possible_change(dt).asDiagonal();
@@ -97,8 +96,7 @@ std::optional<ToldTwist> MotionFilter::told_by(Stamp stamp, const Pose2& map_fro
                                                const Eigen::Matrix3d& covariance) const {
   if (!stamped_) return std::nullopt;
   const double dt = elapsed_s(stamp);
-  Eigen::Matrix3d to_base = Eigen::Matrix3d::Identity();
-  to_base.topLeftCorner<2, 2>() = map_from_base.rotation().transpose();
+  const Eigen::Matrix3d to_base = turn_of(map_from_base).transpose();
   const Eigen::Matrix3d both = to_base * (covariance_ + covariance) * to_base.transpose();
   return ToldTwist{(last_.inverse() * map_from_base).log().vector() / dt, both / (dt * dt)};
 }

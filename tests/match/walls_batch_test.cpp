@@ -83,10 +83,11 @@ TEST(WallsBatch, AllocatesNothingOnceGrown) {
   EXPECT_EQ(test::allocations(), before);
 }
 
-TEST(WallsBatch, OfNothingIsNothing) {
+TEST(WallsBatch, OfNothingLeavesNothingBehind) {
   const Fleet fleet;
   std::vector<WallsScratch> scratches(2);
   match_walls_all({}, fleet.index, fleet.config, scratches, {});
+  for (const WallsScratch& scratch : scratches) EXPECT_EQ(scratch.beams.count, 0U);
 }
 
 }  // namespace
