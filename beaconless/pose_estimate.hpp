@@ -6,17 +6,19 @@
 #include <Eigen/Core>
 
 #include "beaconless/core/stamp.hpp"
+#include "beaconless/geometry/angle.hpp"
 #include "beaconless/geometry/pose2.hpp"
 
 namespace beaconless {
 
 /// The plain word that goes with every pose.
 enum class Status : int {
-  not_started,  ///< no start pose was given yet
-  not_a_scan,   ///< the event brought no scan; the last pose is repeated
-  ok,           ///< the pose can be trusted to its covariance
-  degraded,     ///< a direction is unobservable or the fit is weak: the pose coasts there on its prediction
-  lost,         ///< the scans no longer fit the map where the robot is believed to be
+  not_started,   ///< no start pose was given yet
+  not_a_scan,    ///< the event brought no scan; the last pose is repeated
+  ok,            ///< the pose can be trusted to its covariance
+  degraded,      ///< a direction is unobservable or the fit is weak: the pose coasts there on its prediction
+  lost,          ///< the scans no longer fit the map where the robot is believed to be
+  relocalizing,  ///< it is being found: places of the map are known that fit, and more scans must tell which
 };
 
 constexpr std::string_view to_string(Status status) {
@@ -31,6 +33,8 @@ constexpr std::string_view to_string(Status status) {
       return "degraded";
     case Status::lost:
       return "lost";
+    case Status::relocalizing:
+      return "relocalizing";
   }
   return "unknown";
 }
@@ -45,7 +49,15 @@ struct PoseEstimate {
   Eigen::Matrix3d covariance = Eigen::Vector3d(1e6, 1e6, 10.0).asDiagonal();
   Status status = Status::not_started;
   std::string_view reason = "no start pose was given";  ///< why the status is not ok; static text, "" when ok
-  double quality = 0.0;  ///< 0 … 1: share of the scan that the map explains here
+  double quality = 0.0;  ///< 0 … 1: how far the pose deserves trust; a pose that is ok at 0.5 or more does
+
+  /// Protection level: the true pose is within these but for one scan in ten thousand. At most kUnbounded and
+  /// pi, which say that nothing bounds the error.
+  static constexpr double kUnbounded_m = 1e3;
+  double protection_m = kUnbounded_m;
+  double protection_rad = kPi;
+
+  bool jumped = false;  ///< the pose does not follow from the one before by any motion: the belief changed
 
   bool ok() const { return status == Status::ok; }
 

@@ -15,7 +15,7 @@ namespace beaconless::io {
 namespace {
 
 constexpr std::array kStatuses{Status::not_started, Status::not_a_scan, Status::ok, Status::degraded,
-                               Status::lost};
+                               Status::lost, Status::relocalizing};
 constexpr std::size_t kColumns = 12;
 
 std::optional<Status> status_of(std::string_view word) {

@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
 #include "beaconless/event.hpp"
 #include "beaconless/pose_estimate.hpp"
 
 namespace beaconless {
+
+/// A part of the map: a disc.
+struct SearchRegion {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double radius_m = 0.0;
+};
+
+/// A place where the robot may be, by the scans since it was last known where it is.
+struct PoseCandidate {
+  Pose2 map_from_base;
+  double score = 0.0;   ///< 0 … 1: share of the last scan that is explained from there
+  double weight = 0.0;  ///< 0 … 1: how likely it is this one; those of all candidates add up to 1
+};
 
 /// A complete pipeline on a known map: events in, estimates out.
 class Localizer {
@@ -13,6 +31,14 @@ class Localizer {
 
   /// Sets the belief: the robot's base stands about here now.
   virtual void start_at(const Pose2& map_from_base) = 0;
+
+  /// Sets the belief: the robot stands anywhere, or anywhere within a region. The next scans find it, or tell
+  /// that several places fit; nothing is guessed.
+  virtual void start_anywhere(const std::optional<SearchRegion>& within = std::nullopt) = 0;
+
+  /// The places that fit, the likeliest first; empty where the pose is known, or nothing fits. Valid until
+  /// the next call of any of the others.
+  virtual std::span<const PoseCandidate> candidates() const = 0;
 
   /// Takes in one event. Total: any event in any state gives an estimate with a status, and no NaN.
   virtual PoseEstimate update(const Event& event) = 0;

@@ -99,6 +99,11 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   first_scan_ = true;
 }
 
+void TrackingLocalizer::start_anywhere(const std::optional<SearchRegion>& /*within*/) {
+  started_ = false;
+  candidates_.clear();
+}
+
 PoseEstimate TrackingLocalizer::update(const Event& event) {
   const Scan* scan = std::get_if<Scan>(&event);
   if (const auto* odometry = std::get_if<Odometry>(&event))

@@ -34,6 +34,8 @@ class TrackingLocalizer final : public Localizer {
                     std::unique_ptr<ScanMatcher> matcher);
 
   void start_at(const Pose2& map_from_base) override;
+  void start_anywhere(const std::optional<SearchRegion>& within) override;
+  std::span<const PoseCandidate> candidates() const override { return candidates_; }
   PoseEstimate update(const Event& event) override;
 
  private:
@@ -78,6 +80,7 @@ class TrackingLocalizer final : public Localizer {
   IcpScratch scratch_;
   LocalSearchScratch search_scratch_;
   std::vector<StartPose> starts_;
+  std::vector<PoseCandidate> candidates_;
   std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
   std::vector<double> times_s_;          // of the points, after the stamp
   PoseEstimate last_;

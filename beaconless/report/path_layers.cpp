@@ -19,7 +19,7 @@ constexpr double kLargestEllipse_px = 80.0;
 const Eigen::Vector2d kNowhere = Eigen::Vector2d::Constant(-1e9);
 
 /// The statuses that have a place in the map, worst last so that it lies on top.
-constexpr std::array kShown{Status::ok, Status::degraded, Status::lost};
+constexpr std::array kShown{Status::ok, Status::degraded, Status::relocalizing, Status::lost};
 
 bool is_shown(const PoseEstimate& estimate) {
   return estimate.map_from_base.is_finite() &&

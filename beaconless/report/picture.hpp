@@ -31,6 +31,8 @@ constexpr Colour colour_of(Status status) {
       return Colour::orange;
     case Status::lost:
       return Colour::red;
+    case Status::relocalizing:
+      return Colour::purple;
     case Status::not_started:
     case Status::not_a_scan:
       break;

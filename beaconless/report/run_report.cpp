@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t kMostProblems = 200;
 constexpr double kFewLost_ratio = 0.05;
 constexpr double kStep_m = 0.05;
-constexpr std::array kStatuses{Status::ok, Status::degraded, Status::lost, Status::not_started};
+constexpr std::array kStatuses{Status::ok, Status::degraded, Status::relocalizing, Status::lost,
+                               Status::not_started};
 
 /// How many scans ended in each status; events without a scan are not counted.
 struct Counts {

@@ -20,10 +20,12 @@ int severity(Status status) {
       return 1;
     case Status::degraded:
       return 2;
-    case Status::lost:
+    case Status::relocalizing:
       return 3;
+    case Status::lost:
+      return 4;
   }
-  return 3;
+  return 4;
 }
 
 }  // namespace
