@@ -8,6 +8,7 @@
 #include "beaconless/features/point_feature.hpp"
 #include "beaconless/geometry/pose2.hpp"
 #include "beaconless/localize/health.hpp"
+#include "beaconless/localize/place_finder.hpp"
 #include "beaconless/map/occupancy_pyramid.hpp"
 #include "beaconless/match/feature_icp.hpp"
 #include "beaconless/match/feature_map.hpp"
@@ -36,6 +37,8 @@ struct LocalizerConfig {
   PyramidConfig pyramid;
   HectorConfig hector;
   LocalSearchConfig search;
+  PlacesConfig places;     ///< how a robot is found that may be anywhere …
+  bool relocalize = true;  ///< … and that it is, when it is lost
   MotionConfig motion;
   OdometryConfig odometry;
   HealthConfig health;

@@ -82,6 +82,7 @@ LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
   if (grid == nullptr) return config;
   // A wall drawn into cells is off by up to half a cell.
   if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid->resolution_m / std::sqrt(12.0);
+  config.places.sigma_m = std::max(config.places.sigma_m, grid->resolution_m);
   const bool is_chosen = config.icp.on_map_m != IcpConfig{}.on_map_m;
   if (!is_chosen) config.icp.on_map_m = std::max(config.icp.on_map_m, 2.0 * grid->resolution_m);
   if (config.hector.on_map_m == HectorConfig{}.on_map_m) config.hector.on_map_m = config.icp.on_map_m;
@@ -192,6 +193,8 @@ void describe(Fields& fields, LocalizerConfig& config) {
   fields.section("hector", config.hector);
   fields.section("regions", config.regions);
   fields.section("search", config.search);
+  fields.section("places", config.places);
+  fields("relocalize", config.relocalize, "a robot that is lost is looked for on the whole map");
   fields.section("motion", config.motion);
   fields.section("odometry", config.odometry);
   fields.section("health", config.health);

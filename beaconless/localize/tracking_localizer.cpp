@@ -48,11 +48,17 @@ constexpr std::string_view kThroughWalls =
 constexpr std::string_view kOpenDirection =
     "the walls in view leave a direction open, which is held at the prediction";
 
+constexpr std::string_view kCovered =
+    "the scanner seems to be covered: hardly a beam comes from further than half a metre";
+constexpr std::string_view kFound = "a place that fits was found; more scans must agree";
+constexpr std::string_view kSeveral = "several places of the map fit what was seen; a drive tells which";
+constexpr std::string_view kOpenPlace =
+    "the place that fits leaves a direction open, or others are not far behind; a drive tells more";
+
 std::string_view reason_of(Status status, bool was_lost) {
   if (status == Status::ok) return "";
   if (status == Status::lost) return "the scan does not fit the map here";
-  return was_lost ? "a place that fits was found; more scans must agree"
-                  : "less of the scan lies on the map than is usual";
+  return was_lost ? kFound : "less of the scan lies on the map than is usual";
 }
 
 /// Whether hardly a beam comes from far away. Mostly the first few tell.
@@ -83,6 +89,7 @@ TrackingLocalizer::TrackingLocalizer(const LocalizerConfig& config, std::shared_
       laser_from_base_(config.base_from_laser.inverse()),
       motion_(config.motion),
       odometry_(config.odometry),
+      finder_(config.places, map_, config.icp, config.walls),
       health_(config.health) {}
 
 void TrackingLocalizer::start_at(const Pose2& map_from_base) {
@@ -96,35 +103,129 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   last_ = PoseEstimate{};
   last_.map_from_base = map_from_base;
   started_ = true;
+  is_anywhere_ = false;
+  is_new_place_ = false;
   first_scan_ = true;
 }
 
-void TrackingLocalizer::start_anywhere(const std::optional<SearchRegion>& /*within*/) {
-  started_ = false;
-  candidates_.clear();
+void TrackingLocalizer::start_anywhere(const std::optional<SearchRegion>& within) {
+  FloorPlan::Bounds box = bounds_of(*map_);
+  if (within) {
+    box.low = box.low.cwiseMax((within->middle.array() - within->radius_m).matrix());
+    box.high = box.high.cwiseMin((within->middle.array() + within->radius_m).matrix());
+  }
+  last_ = PoseEstimate{};
+  last_scan_.reset();
+  was_placed_ = false;
+  search_anywhere(box, 1);
 }
 
 PoseEstimate TrackingLocalizer::update(const Event& event) {
   const Scan* scan = std::get_if<Scan>(&event);
   if (const auto* odometry = std::get_if<Odometry>(&event))
     odometry_.add(odometry->stamp, odometry->odom_from_base);
-  if (scan == nullptr || !started_) {
+  if (scan == nullptr || !(started_ || is_anywhere_)) {
     PoseEstimate estimate = last_;
     estimate.stamp = stamp_of(event);
-    estimate.status = started_ ? Status::not_a_scan : Status::not_started;
-    estimate.reason = started_ ? "the event brought no scan" : "no start pose was given";
+    estimate.status =
+        scan == nullptr && (started_ || is_anywhere_) ? Status::not_a_scan : Status::not_started;
+    estimate.reason =
+        estimate.status == Status::not_a_scan ? "the event brought no scan" : "no start pose was given";
     return estimate;
   }
+  // 1. A robot that may be anywhere is looked for, and followed from where it is found.
+  if (is_anywhere_) {
+    if (const auto estimate = find(*scan)) return last_ = *estimate;
+  }
+  // 2. One that is somewhere is followed.
+  const bool is_found = is_new_place_;
+  last_ = track(*scan);
+  last_.jumped = last_.jumped || is_found;
+  is_new_place_ = false;
+  // 3. One that is no longer there may be anywhere.
+  if (config_.relocalize && health_.lost() && health_.is_weak(last_.quality) && !is_covered_)
+    search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
+  return last_;
+}
+
+void TrackingLocalizer::search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans) {
+  is_anywhere_ = true;
+  agreeing_scans_ = agreeing_scans;
+  agreed_scans_ = 0;
+  candidates_.clear();
+  finder_.begin(box);
+}
+
+std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
+  // 1. How the robot moved, as far as the wheels tell, and what the laser saw.
+  std::optional<Pose2> moved;
+  Prediction standing;
+  standing.map_from_base = last_.map_from_base;
+  if (const auto told = last_scan_ ? odometry_.between(*last_scan_, scan.stamp()) : std::nullopt) {
+    standing.motion = *told;
+    const Eigen::Vector3d way = told->per_s * seconds_between(*last_scan_, scan.stamp());
+    moved = laser_from_base_ * Pose2::exp(Twist2{way.x(), way.y(), way.z()}) * config_.base_from_laser;
+  }
+  observe(scan, standing.map_from_base * config_.base_from_laser, kLostCovariance, standing);
+  last_scan_ = scan.stamp();
+  if (is_covered_) return coast(standing, scan.stamp(), kCovered);
+  // 2. Where that fits.
+  const PlaceFinder::Verdict verdict = finder_.see(scan.stamp(), points_, moved);
+  list_candidates();
+  // 3. It is there, once enough scans agree on one place.
+  agreed_scans_ = verdict == PlaceFinder::Verdict::one ? agreed_scans_ + 1 : 0;
+  if (agreed_scans_ < agreeing_scans_) return searching(scan, verdict);
+  const bool was_placed = was_placed_;
+  start_at(finder_.places().front().map_from_laser * laser_from_base_);
+  is_new_place_ = was_placed;
+  return std::nullopt;
+}
+
+void TrackingLocalizer::list_candidates() {
+  candidates_.clear();
+  for (const PlaceFinder::Place& place : finder_.likely())
+    candidates_.push_back({place.map_from_laser * laser_from_base_, place.now.on_map, finder_.weight(place)});
+}
+
+PoseEstimate TrackingLocalizer::searching(const Scan& scan, PlaceFinder::Verdict verdict) {
+  PoseEstimate estimate;
+  estimate.stamp = scan.stamp();
+  estimate.map_from_base = last_.map_from_base;
+  estimate.covariance += kLostCovariance;
+  if (verdict == PlaceFinder::Verdict::nothing) {
+    estimate.status = Status::lost;
+    estimate.reason = "the scan fits nowhere on the map";
+    return estimate;
+  }
+  // The likeliest place, and in the covariance that it may be another.
+  estimate.status = Status::relocalizing;
+  estimate.reason = verdict == PlaceFinder::Verdict::one ? kFound
+                    : candidates_.size() > 1             ? kSeveral
+                                                         : kOpenPlace;
+  const PlaceFinder::Place& best = finder_.places().front();
+  estimate.map_from_base = candidates_.front().map_from_base;
+  estimate.covariance = moved_covariance(best.covariance, best.map_from_laser, laser_from_base_);
+  for (const PoseCandidate& candidate : candidates_) {
+    const Pose2& other = candidate.map_from_base;
+    const Eigen::Vector3d way(other.x_m - estimate.map_from_base.x_m, other.y_m - estimate.map_from_base.y_m,
+                              heading_difference_rad(other, estimate.map_from_base));
+    estimate.covariance += candidate.weight * way * way.transpose();
+  }
+  estimate.covariance = symmetric(estimate.covariance);
+  return estimate;
+}
+
+PoseEstimate TrackingLocalizer::track(const Scan& scan) {
   // 1. Where the robot should be by its motion so far.
   if (last_scan_ && odometry_.is_trusted())
-    if (const auto told = odometry_.between(*last_scan_, scan->stamp()))
-      motion_.hear(*told, seconds_between(*last_scan_, scan->stamp()));
-  Prediction prediction = motion_.predict(scan->stamp());
-  prediction.motion = motion_during(*scan, motion_);
+    if (const auto told = odometry_.between(*last_scan_, scan.stamp()))
+      motion_.hear(*told, seconds_between(*last_scan_, scan.stamp()));
+  Prediction prediction = motion_.predict(scan.stamp());
+  prediction.motion = motion_during(scan, motion_);
   bent_.reset();
   const Pose2 guess = prediction.map_from_base * config_.base_from_laser;
   // 2. What the laser saw.
-  observe(*scan, guess,
+  observe(scan, guess,
           moved_covariance(prediction.covariance, prediction.map_from_base, config_.base_from_laser),
           prediction);
   const bool is_anywhere = first_scan_ || health_.lost();
@@ -145,7 +246,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
     whole_scan = fit_whole_scan({&there, 1}, prediction);
   }
   // 5. Where the fit tells another motion during the sweep, see the sweep by that.
-  if (reason_against(match, prediction).empty()) match = fit_by_new_motion(match, prediction, *scan);
+  if (reason_against(match, prediction).empty()) match = fit_by_new_motion(match, prediction, scan);
   // 6. Whether another place fits as well: looked for where the robot could be anywhere, then followed,
   //    and taken once it fits better.
   bool is_other = false;
@@ -162,12 +263,13 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   std::string_view doubt = is_other ? std::string_view{} : reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
-  last_ = doubt.empty() ? accept(match, prediction, *scan, caveat_of(match, is_other))
-          : whole_scan  ? stand_in(*whole_scan, prediction, *scan)
-                        : coast(prediction, scan->stamp(), doubt);
+  const PoseEstimate estimate = doubt.empty() ? accept(match, prediction, scan, caveat_of(match, is_other))
+                                : whole_scan  ? stand_in(*whole_scan, prediction, scan)
+                                              : coast(prediction, scan.stamp(), doubt);
   first_scan_ = false;
-  last_scan_ = scan->stamp();
-  return last_;
+  last_scan_ = scan.stamp();
+  was_placed_ = was_placed_ || estimate.ok();
+  return estimate;
 }
 
 bool TrackingLocalizer::is_worth_searching(const MatchResult& match, const Prediction& prediction) {
@@ -182,8 +284,7 @@ bool TrackingLocalizer::is_worth_searching(const MatchResult& match, const Predi
 
 std::string_view TrackingLocalizer::reason_to_coast(const MatchResult& match,
                                                     const Prediction& prediction) const {
-  if (is_covered_)
-    return "the scanner seems to be covered: hardly a beam comes from further than half a metre";
+  if (is_covered_) return kCovered;
   if (!match.usable()) return matcher_->too_few_pairs();
   if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
     return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
@@ -387,6 +488,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
       symmetric(estimate.covariance + swept + rivals_.covariance(estimate.map_from_base, laser_from_base_));
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
+  estimate.jumped = !first_scan_ && is_jump(match, prediction);
   // 4. What carries over to the next scan.
   const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
   if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);

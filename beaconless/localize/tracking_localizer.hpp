@@ -9,6 +9,7 @@
 
 #include "beaconless/localize/localizer.hpp"
 #include "beaconless/localize/localizer_config.hpp"
+#include "beaconless/localize/place_finder.hpp"
 #include "beaconless/localize/rivals.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
 #include "beaconless/map/nearness_pyramid.hpp"
@@ -39,6 +40,11 @@ class TrackingLocalizer final : public Localizer {
   PoseEstimate update(const Event& event) override;
 
  private:
+  PoseEstimate track(const Scan& scan);
+  std::optional<PoseEstimate> find(const Scan& scan);
+  void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans);
+  PoseEstimate searching(const Scan& scan, PlaceFinder::Verdict verdict);
+  void list_candidates();
   void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,
                const Prediction& prediction);
   MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
@@ -74,6 +80,7 @@ class TrackingLocalizer final : public Localizer {
   MotionFilter motion_;
   OdometryTrack odometry_;
   Rivals rivals_;
+  PlaceFinder finder_;
   std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
   Health health_;
@@ -85,6 +92,11 @@ class TrackingLocalizer final : public Localizer {
   std::vector<double> times_s_;          // of the points, after the stamp
   PoseEstimate last_;
   bool started_ = false;
+  bool is_anywhere_ = false;   // nothing is believed of the pose
+  bool is_new_place_ = false;  // it was found elsewhere than where it was thought to be
+  bool was_placed_ = false;    // something was, before that
+  int agreeing_scans_ = 1;     // that it takes to be found
+  int agreed_scans_ = 0;
   bool first_scan_ = true;
   bool is_covered_ = false;
   bool is_through_walls_ = false;  // beams pass through walls where the robot is thought to be

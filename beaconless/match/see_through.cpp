@@ -5,25 +5,6 @@
 #include <variant>
 
 namespace beaconless {
-namespace {
-
-constexpr double kThrough_m = 0.015;  // nearer than this to a surface a beam meets it …
-constexpr double kBefore_m = 0.3;     // … if it ends this far behind: no noise, and no wall that is off
-constexpr double kStart_m = 0.1;      // from the laser
-
-template <SurfaceIndex Index>
-bool passes_through(const Index& map, const Eigen::Vector2d& from, const Eigen::Vector2d& way,
-                    double length_m) {
-  for (double at_m = kStart_m; at_m < length_m - kBefore_m;) {
-    const auto surface = map.nearest(from + at_m * way);
-    const double clear_m = surface ? surface->distance_m : map.reach_m();
-    if (clear_m < kThrough_m) return true;
-    at_m += clear_m;
-  }
-  return false;
-}
-
-}  // namespace
 
 double see_through_share(std::span<const Eigen::Vector2d> points, const SurfaceMap& map,
                          const Pose2& map_from_laser, std::size_t stride) {
@@ -37,7 +18,7 @@ double see_through_share(std::span<const Eigen::Vector2d> points, const SurfaceM
     all += 1.0;
     through += std::visit(
                    [&](const auto& index) {
-                     return passes_through(index, map_from_laser.translation(), way, length_m);
+                     return passes_through(index, map_from_laser.translation(), way, length_m, 0.0);
                    },
                    map)
                    ? 1.0

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/localize/place_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace beaconless {
+namespace {
+
+constexpr std::size_t kBeams = 120;  // that weigh a place
+constexpr std::size_t kMostViews = 8;
+constexpr double kSame_m = 0.3;  // places nearer than this, and turned by less, are one
+constexpr double kSame_rad = radians(5.0);
+constexpr double kStray_m = 0.3;  // a fit that strays further from its guess is another place
+constexpr double kStray_rad = radians(10.0);
+constexpr double kNear_m = 0.1;  // how far ICP may be from where the walls are
+constexpr double kHeld_m = 0.3;  // a place less certain than this is not held
+constexpr double kBehind = 1.0;  // a place so far behind the best is given up
+constexpr double kMostThrough = 0.25;
+constexpr double kFine_m = 0.05;          // the margin is for maps that are off by this
+constexpr double kCoarse = 1.5;           // … and grows with so many powers of what others are off by more
+constexpr double kBeamsThatCount = 20.0;  // of a scan, the others say what these do
+
+bool is_same(const Pose2& a, const Pose2& b) {
+  return distance_m(a, b) < kSame_m && heading_difference_rad(a, b) < kSame_rad;
+}
+
+/// Whether a pose is off another by more than a fit may correct.
+bool is_astray(const Pose2& a, const Pose2& b) {
+  return distance_m(a, b) > kStray_m || heading_difference_rad(a, b) > kStray_rad;
+}
+
+}  // namespace
+
+void describe(Fields& fields, PlacesConfig& config) {
+  fields.section("search", config.search);
+  fields("sigma_m", config.sigma_m, {0.005, 1.0},
+         "by how much surfaces of the map may be off; no less than a grid's cells");
+  fields("margin", config.margin, {0.0, 100.0},
+         "mean log-likelihood of a beam, added up over views, that a place must be ahead of all others");
+  fields("least_explained", config.least_explained, {0.0, 1.0},
+         "share of the scan that must lie on the map at a place");
+  fields("least_likelihood", config.least_likelihood, {-10.0, 0.0},
+         "mean log-likelihood of a beam that a place must reach");
+  fields("view_m", config.view_m, {0.05, 100.0}, "a new view begins when the laser has moved so far …");
+  fields("view_deg", config.view_deg, {1.0, 180.0}, "… or turned so far");
+  fields("every_s", config.every_s, {0.0, 1000.0}, "how often is looked again where nothing fits");
+}
+
+PlaceFinder::PlaceFinder(const PlacesConfig& config, std::shared_ptr<const SurfaceMap> map,
+                         const IcpConfig& icp, const WallsConfig& walls)
+    : config_(config),
+      map_(std::move(map)),
+      icp_(icp),
+      walls_(walls),
+      nearness_(*map_, config.search.cell_m, config.search.truncate_m),
+      box_(bounds_of(*map_)) {}
+
+void PlaceFinder::begin(const FloorPlan::Bounds& box) {
+  box_ = box;
+  places_.clear();
+  views_.clear();
+  looked_.reset();
+}
+
+void PlaceFinder::begin() { begin(bounds_of(*map_)); }
+
+PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector2d> points,
+                                      const std::optional<Pose2>& moved) {
+  points_ = points;
+  // 1. The places so far, from where this scan was taken.
+  const Pose2 way = moved.value_or(last_moved_);
+  if (!places_.empty()) follow(way);
+  // 2. All that fit, with every view; where nothing does, now and then.
+  const bool is_hopeless = places_.empty() || verdict() == Verdict::nothing;
+  const bool is_due = !looked_ || std::abs(seconds_between(*looked_, stamp)) >= config_.every_s;
+  if (is_hopeless && is_due) views_.clear();
+  if (views_.empty() ? is_due : is_new_view()) {
+    look();
+    looked_ = stamp;
+  }
+  // 3. What that says.
+  sort_out();
+  return verdict();
+}
+
+bool PlaceFinder::is_new_view() const {
+  return since_view_.translation().norm() > config_.view_m ||
+         std::abs(since_view_.theta_rad) > radians(config_.view_deg);
+}
+
+void PlaceFinder::follow(const Pose2& moved) {
+  const Pose2 before = places_.front().map_from_laser;
+  for (Place& place : places_) {
+    const double seen = place.log_likelihoods.back();
+    const double scans = place.scans_in_view++;
+    const Pose2 guess = place.map_from_laser * moved;
+    if (!fit(points_, guess, place) || is_astray(place.map_from_laser, guess)) place.map_from_laser = guess;
+    place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
+    place.log_likelihoods.back() = (scans * seen + place.now.log_likelihood) / (scans + 1.0);
+  }
+  last_moved_ = before.inverse() * places_.front().map_from_laser;
+  since_view_ = since_view_ * last_moved_;
+}
+
+void PlaceFinder::look() {
+  // 1. This scan is a view of its own.
+  if (!views_.empty()) views_.back().to_next = since_view_;
+  if (views_.empty()) places_.clear();
+  if (views_.size() == kMostViews) {
+    views_.erase(views_.begin());
+    for (Place& place : places_) place.log_likelihoods.erase(place.log_likelihoods.begin());
+  }
+  views_.push_back({{points_.begin(), points_.end()}, Pose2{}});
+  since_view_ = Pose2{};
+  for (Place& place : places_) {
+    place.log_likelihoods.push_back(place.now.log_likelihood);
+    place.scans_in_view = 1;
+  }
+  // 2. Where it fits, and how all that was seen before fits there.
+  search_everywhere(points_, nearness_, box_, config_.search, search_scratch_, starts_);
+  for (const StartPose& start : starts_) add(start.map_from_laser);
+}
+
+bool PlaceFinder::add(const Pose2& start) {
+  Place place;
+  if (!fit(points_, start, place)) return false;
+  const bool is_known = std::any_of(places_.begin(), places_.end(), [&](const Place& known) {
+    return is_same(known.map_from_laser, place.map_from_laser);
+  });
+  if (is_known) return false;
+  place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
+  place.log_likelihoods.assign(views_.size(), place.now.log_likelihood);
+  place.scans_in_view = 1;
+  weigh_past(place);
+  places_.push_back(std::move(place));
+  return true;
+}
+
+void PlaceFinder::weigh_past(Place& place) const {
+  Pose2 then = place.map_from_laser;
+  for (std::size_t view = views_.size() - 1; view-- > 0;) {
+    const Pose2 guess = then * views_[view].to_next.inverse();
+    Place past;
+    then = fit(views_[view].points, guess, past) && !is_astray(past.map_from_laser, guess)
+               ? past.map_from_laser
+               : guess;
+    place.log_likelihoods[view] =
+        weigh_scan(views_[view].points, *map_, then, config_.sigma_m, kBeams).log_likelihood;
+  }
+}
+
+bool PlaceFinder::fit(std::span<const Eigen::Vector2d> points, const Pose2& guess, Place& place) const {
+  MatchResult match = match_icp(points, *map_, guess, icp_, icp_scratch_);
+  if (!match.usable()) return false;
+  if (const auto* walls = std::get_if<WallIndex>(map_.get())) {
+    const MatchResult finer =
+        match_walls(points, *walls, match.map_from_laser, kNear_m, walls_, walls_scratch_);
+    if (finer.usable()) match = finer;
+  }
+  place.map_from_laser = match.map_from_laser;
+  place.covariance = match.covariance;
+  place.rank = match.rank;
+  return true;
+}
+
+void PlaceFinder::sort_out() {
+  for (Place& place : places_) {
+    place.total = 0.0;
+    for (const double view : place.log_likelihoods) place.total += view;
+  }
+  std::stable_sort(places_.begin(), places_.end(),
+                   [](const Place& a, const Place& b) { return a.total > b.total; });
+  // Places that have come together are one; what is far behind is none.
+  std::vector<Place> left;
+  for (Place& place : places_) {
+    const bool is_behind = !left.empty() && place.total < left.front().total - kBehind;
+    const bool is_known = std::any_of(left.begin(), left.end(), [&](const Place& better) {
+      return is_same(better.map_from_laser, place.map_from_laser);
+    });
+    if (!is_behind && !is_known) left.push_back(std::move(place));
+  }
+  places_ = std::move(left);
+}
+
+double PlaceFinder::needed_margin() const {
+  return config_.margin * std::pow(std::max(1.0, config_.sigma_m / kFine_m), kCoarse);
+}
+
+PlaceFinder::Verdict PlaceFinder::verdict() const {
+  if (places_.empty()) return Verdict::nothing;
+  const Place& best = places_.front();
+  const double mean = best.total / static_cast<double>(best.log_likelihoods.size());
+  if (best.now.on_map < config_.least_explained || best.now.through > kMostThrough ||
+      mean < config_.least_likelihood)
+    return Verdict::nothing;
+  const bool is_held = best.rank == 3 && best.covariance.topLeftCorner<2, 2>().trace() < kHeld_m * kHeld_m;
+  const bool is_ahead = places_.size() == 1 || places_[1].total < best.total - needed_margin();
+  return is_held && is_ahead ? Verdict::one : Verdict::several;
+}
+
+std::span<const PlaceFinder::Place> PlaceFinder::likely() const {
+  const auto end = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
+    return place.total < places_.front().total - needed_margin();
+  });
+  return {places_.begin(), end};
+}
+
+double PlaceFinder::weight(const Place& place) const {
+  double sum = 0.0;
+  for (const Place& other : places_) sum += std::exp(kBeamsThatCount * (other.total - place.total));
+  return 1.0 / sum;
+}
+
+}  // namespace beaconless
