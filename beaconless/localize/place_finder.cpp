@@ -8,7 +8,7 @@
 namespace beaconless {
 namespace {
 
-constexpr std::size_t kBeams = 120;  // that weigh a place
+constexpr std::size_t kBeams = 400;  // that weigh a place
 constexpr std::size_t kMostViews = 8;
 constexpr double kSame_m = 0.3;  // places nearer than this, and turned by less, are one
 constexpr double kSame_rad = radians(5.0);
@@ -39,6 +39,8 @@ void describe(Fields& fields, PlacesConfig& config) {
          "by how much surfaces of the map may be off; no less than a grid's cells");
   fields("margin", config.margin, {0.0, 100.0},
          "mean log-likelihood of a beam, added up over views, that a place must be ahead of all others");
+  fields("doubt", config.doubt, {0.0, 100.0},
+         "the margin grows by this times the share of the scan that is not on the map");
   fields("least_explained", config.least_explained, {0.0, 1.0},
          "share of the scan that must lie on the map at a place");
   fields("least_likelihood", config.least_likelihood, {-10.0, 0.0},
@@ -185,7 +187,8 @@ void PlaceFinder::sort_out() {
 }
 
 double PlaceFinder::needed_margin() const {
-  return config_.margin * std::pow(std::max(1.0, config_.sigma_m / kFine_m), kCoarse);
+  const double coarse = std::pow(std::max(1.0, config_.sigma_m / kFine_m), kCoarse);
+  return coarse * config_.margin + config_.doubt * (1.0 - places_.front().now.on_map);
 }
 
 PlaceFinder::Verdict PlaceFinder::verdict() const {

@@ -204,7 +204,8 @@ PoseEstimate TrackingLocalizer::searching(const Scan& scan, PlaceFinder::Verdict
                                                          : kOpenPlace;
   const PlaceFinder::Place& best = finder_.places().front();
   estimate.map_from_base = candidates_.front().map_from_base;
-  estimate.covariance = moved_covariance(best.covariance, best.map_from_laser, laser_from_base_);
+  estimate.covariance =
+      moved_covariance(best.covariance, best.map_from_laser, laser_from_base_) + kLostCovariance;
   for (const PoseCandidate& candidate : candidates_) {
     const Pose2& other = candidate.map_from_base;
     const Eigen::Vector3d way(other.x_m - estimate.map_from_base.x_m, other.y_m - estimate.map_from_base.y_m,
