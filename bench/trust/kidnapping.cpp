@@ -90,17 +90,17 @@ const Trial& Kidnapper::recorded(std::size_t choice) {
 
 Kidnapping Kidnapper::kidnapping(std::uint64_t seed) {
   Rng rng(seed);
-  const bool is_short = seed / 2 % 2 == 0;
+  const bool is_short = rng.uniform() < 0.5;
   const bool has_recordings = std::any_of(recordings_.begin(), recordings_.end(),
                                           [](const RecordedTrial& r) { return r.can_be_carried; });
   std::optional<Kidnapping> made;
   if (seed % 2 == 1 && has_recordings) {
-    const Trial& trial = recorded(seed / 4);
+    const Trial& trial = recorded(seed / 2);
     made = carry(trial, trial, is_short, rng);
   }
   for (std::uint64_t building = seed; !made; building += kNextBuilding) {
     const std::array<Trial, 2> parts = simulated_parts(building);
-    made = carry(parts[0], parts[seed / 4 % 2], is_short, rng);
+    made = carry(parts[0], parts[seed / 8 % 2], is_short, rng);
   }
   made->trial.seed = seed;
   return *made;

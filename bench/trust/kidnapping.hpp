@@ -25,8 +25,8 @@ struct Kidnapping {
 /// Makes them; recordings are read once.
 class Kidnapper {
  public:
-  /// Odd seeds carry through a recording, where there are any, even ones through a made-up building. Every
-  /// second of both carries no further than two metres, where such places are met.
+  /// Odd seeds carry through a recording, where there are any, even ones through a made-up building. Half
+  /// of both carry no further than two metres, where such places are met.
   Kidnapping kidnapping(std::uint64_t seed);
 
  private:

@@ -28,7 +28,7 @@ RecordedScans read_scans(const RecordedSource& source) {
       told.reset();
       if (!truth) continue;
       scans.events.push_back(event);
-      scans.truth.push_back(*truth);
+      scans.truth.push_back(source.truth_is_of_laser ? *truth * source.base_from_laser.inverse() : *truth);
     } else {
       scans.events.push_back(event);
     }

@@ -17,6 +17,7 @@ struct RecordedSource {
   std::string truth;  ///< a TUM file; empty: what each scan's own line tells
   StampIs stamp_is = StampIs::first_beam;
   Pose2 base_from_laser;
+  bool truth_is_of_laser = false;  ///< else of the base
 };
 
 /// The scans of a recording whose true pose is known, and the odometry between them.
