@@ -105,16 +105,17 @@ Building corridor(Rng& rng) {
   return building;
 }
 
-/// A row of rooms along one side of a corridor, each with a door to it; walls are 10 cm thick.
+/// A row of rooms along one side of a corridor, each with a door to it.
 void add_offices(Building& building, double length, double door_y, double far_y, Rng& rng) {
-  const double out = far_y > door_y ? 0.1 : -0.1;
+  constexpr double kThick_m = 0.12;  // more than what is called wrong
+  const double out = far_y > door_y ? kThick_m : -kThick_m;
   double x = 0.0;
   while (x < length - 2.6) {
     const double end = x + rng.uniform(3.0, 6.5) > length - 2.6 ? length : x + rng.uniform(3.0, 6.5);
     const double door = rng.uniform(1.0, 1.2);
     const double at = rng.uniform(x + 0.4, end - 0.4 - door);
     for (const auto& [from, to] : {std::pair{x, at}, {at + door, end}})
-      building.walls.push_back(rectangle_at({from, std::min(door_y, door_y + out)}, {to - from, 0.1}));
+      building.walls.push_back(rectangle_at({from, std::min(door_y, door_y + out)}, {to - from, kThick_m}));
     if (end < length) building.walls.push_back({{end, door_y + out}, {end, far_y}});
     const int pieces = count(rng, 1, 5);
     for (int i = 0; i < pieces; ++i) {
