@@ -24,6 +24,7 @@ struct LocalizeWords {
   std::string pose_topic;
   std::string reference;
   std::string alone;
+  std::string windows;
   std::string config;
   std::vector<std::string> set;
   double sigma_m = 0.0;  ///< 0: the config's
