@@ -38,6 +38,10 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Take every scan for itself: start it METRES,DEGREES away from its --start-from pose");
   command->add_option("--windows", words->windows,
                       "Find every LENGTH:STRIDE scans by themselves, from --start auto or near");
+  command->add_option("--save-pose", words->save_pose,
+                      "Keep the last good pose in a file, for --start resume:FILE");
+  command->add_option("--blackbox", words->black_box,
+                      "Folder for the last half minute of events whenever the robot loses its way");
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localize_run.hpp"
 
+#include <fmt/format.h>
+
 #include "beaconless/localize/make_localizer.hpp"
 
 #include "localize_inputs.hpp"
 #include "localize_plan.hpp"
 #include "localizer_config_of.hpp"
+#include "resume.hpp"
+#include "resuming_localizer.hpp"
 #include "run_files.hpp"
+#include "run_watch.hpp"
 #include "window_outcomes.hpp"
 
 namespace beaconless::cli {
@@ -38,9 +43,55 @@ void localize_windows(const LocalizePlan& plan, const LocalizeInputs& inputs, Lo
                             csv_of(judged)};
 }
 
-void begin(Localizer& localizer, const Start& start) {
-  if (const auto* here = std::get_if<StartHere>(&start)) localizer.start_at(here->map_from_base);
-  if (const auto* anywhere = std::get_if<StartAnywhere>(&start)) localizer.start_anywhere(anywhere->within);
+std::string words_of(const Pose2& pose) {
+  return fmt::format("{},{},{}", pose.x_m, pose.y_m, degrees(pose.theta_rad));
+}
+
+/// A localizer that is started, and the words that begin the same run again.
+struct Begun {
+  std::unique_ptr<Localizer> localizer;
+  std::string start;
+};
+
+Result<Begun> begun(std::unique_ptr<Localizer> localizer, const LocalizeWords& words,
+                    const LocalizeInputs& inputs, const io::MapIdentity& map, const Console& console) {
+  if (const auto* here = std::get_if<StartHere>(&inputs.start)) {
+    localizer->start_at(here->map_from_base);
+    return Begun{std::move(localizer), words.start.empty() ? words_of(here->map_from_base) : words.start};
+  }
+  if (const auto* anywhere = std::get_if<StartAnywhere>(&inputs.start)) {
+    localizer->start_anywhere(anywhere->within);
+    return Begun{std::move(localizer), words.start};
+  }
+  const auto pose =
+      resumed_pose(console, std::get<StartResumed>(inputs.start).pose_file, map, inputs.first.scan.stamp());
+  if (!pose) return pose.error();
+  return Begun{std::make_unique<ResumingLocalizer>(std::move(localizer), *pose), words_of(*pose)};
+}
+
+/// Takes the scans one after the other.
+Result<Done> localize_drive(const LocalizeWords& words, const LocalizePlan& plan,
+                            const LocalizeInputs& inputs, std::unique_ptr<Localizer> localizer,
+                            const Console& console, Run& run) {
+  io::MapIdentity map;
+  if (!words.save_pose.empty() || !words.black_box.empty() ||
+      std::holds_alternative<StartResumed>(inputs.start)) {
+    auto identified = io::identify_map(words.map);
+    if (!identified) return identified.error();
+    map = *std::move(identified);
+  }
+  auto ready = begun(std::move(localizer), words, inputs, map, console);
+  if (!ready) return ready.error();
+  const auto [started, start] = *std::move(ready);
+  RunWatch watch(console, words, plan, map, start);
+  run.replay =
+      replay(inputs.recording, plan.scans, *started, plan.config.base_from_laser, console, inputs.start_at,
+             [&](const Event& event, const PoseEstimate& estimate) { watch.update(event, estimate); });
+  watch.finish();
+  const auto* resuming = dynamic_cast<const ResumingLocalizer*>(started.get());
+  if (resuming != nullptr && resuming->has_searched())
+    console.note("the first scans do not fit at the last pose: the robot was searched everywhere");
+  return Done{};
 }
 
 }  // namespace
@@ -68,9 +119,8 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   if (plan->windows) {
     localize_windows(*plan, *inputs, **localizer, console, run);
   } else {
-    begin(**localizer, inputs->start);
-    run.replay = replay(inputs->recording, plan->scans, **localizer, config.base_from_laser, console,
-                        inputs->start_at);
+    if (auto driven = localize_drive(words, *plan, *inputs, *std::move(localizer), console, run); !driven)
+      return console.fail(driven.error());
   }
   if (run.replay.estimates.empty())
     return console.fail(

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "beaconless/io/tum.hpp"
 #include "beaconless/report/run_report.hpp"
 
+#include "run_summary.hpp"
 #include "tables.hpp"
 
 namespace beaconless::cli {
@@ -29,46 +29,6 @@ Trajectory told_poses(const Run& run) {
     if (is_told && (!run.windows || estimate.ok())) poses.push_back({estimate.stamp, estimate.map_from_base});
   }
   return Trajectory(std::move(poses));
-}
-
-std::map<std::string, std::size_t> status_counts(const Run& run) {
-  std::map<std::string, std::size_t> counts;
-  for (const PoseEstimate& estimate : run.replay.estimates) ++counts[std::string(to_string(estimate.status))];
-  return counts;
-}
-
-/// Why estimates were not ok, and how many each time.
-std::map<std::string, std::size_t> reason_counts(const Run& run) {
-  std::map<std::string, std::size_t> counts;
-  for (const PoseEstimate& estimate : run.replay.estimates)
-    if (!estimate.ok()) ++counts[fmt::format("{}: {}", to_string(estimate.status), estimate.reason)];
-  return counts;
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-nlohmann::json summary_of(const LocalizeWords& words, const Run& run,
-                          const std::optional<Judgement>& judgement) {
-  const auto& times = run.replay.update_us;
-  nlohmann::json summary = {{"method", run.config.method},
-                            {"recording", words.recording},
-                            {"map", words.map},
-                            {"scans", run.replay.estimates.size()},
-                            {"status_counts", status_counts(run)},
-                            {"reason_counts", reason_counts(run)},
-                            {"skipped_records", run.replay.skipped_records},
-                            {"update_us",
-                             {{"median", percentile(times, 0.5)},
-                              {"p99", percentile(times, 0.99)},
-                              {"max", percentile(times, 1.0)}}}};
-  if (run.windows) summary["windows"] = run.windows->summary;
-  if (judgement) summary["error"] = to_json(*judgement);
-  return summary;
 }
 
 std::string config_text(const Run& run) {
@@ -89,6 +49,9 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
   page.estimates = run.replay.estimates;
   page.reference = run.reference;
   page.scans = run.replay.overlay;
+  page.good_scans = run.replay.good_scans;
+  page.places = run.replay.places;
+  if (run.reference) page.judged = eval::judge_estimates(run.replay.estimates, *run.reference);
   page.update_times_us = run.replay.update_us;
   page.config_text = config_text(run);
   page.problems = run.problems;
@@ -97,6 +60,7 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
         fmt::format("{} records of the recording were passed over", run.replay.skipped_records));
   for (const auto& [reason, count] : reason_counts(run))
     page.problems.push_back(fmt::format("{} of {} scans {}", count, run.replay.estimates.size(), reason));
+  for (const std::string& jump : jumps_of(run)) page.problems.push_back(jump);
   if (!judgement) return page;
   page.errors = judgement->evaluation.errors;
   page.bounds = judgement->bounds;
@@ -142,6 +106,9 @@ void tell(const Console& console, const Run& run, const nlohmann::json& summary,
   console.say(fmt::format("{} {} by {}: {}", run.replay.estimates.size(), run.windows ? "windows" : "scans",
                           run.config.method, counts));
   for (const auto& [reason, count] : reason_counts(run)) console.say(fmt::format("  {} {}", count, reason));
+  for (const std::string& line : ambiguous_lines(run)) console.say(line);
+  if (const std::size_t jumps = jumps_of(run).size(); jumps > 0)
+    console.say(fmt::format("the pose jumped {} times", jumps));
   console.say(fmt::format("update: median {:.0f} µs, p99 {:.0f} µs, max {:.0f} µs",
                           times["median"].get<double>(), times["p99"].get<double>(),
                           times["max"].get<double>()));

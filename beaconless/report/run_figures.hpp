@@ -56,4 +56,14 @@ Picture draw_heading_sigma(const RunReport& report, const RunClock& clock);
 Picture draw_quality(const RunReport& report, const RunClock& clock);
 Picture draw_update_times(const RunReport& report);
 
+/// The protection levels of the estimates, above the errors where there is a reference.
+Picture draw_position_protection(const RunReport& report, const RunClock& clock);
+Picture draw_heading_protection(const RunReport& report, const RunClock& clock);
+
+/// How often poses of a quality are near the reference, against that quality.
+Picture draw_reliability(const RunReport& report);
+
+/// What is marked in the map besides the path: candidate places, and beams that contradict the map.
+std::vector<MapMarks> marks_of(const RunReport& report);
+
 }  // namespace beaconless::report

@@ -15,6 +15,7 @@ namespace beaconless::report {
 namespace {
 
 constexpr std::size_t kMostProblems = 200;
+constexpr std::size_t kMostPlaces = 60;  // rows of their table
 constexpr double kFewLost_ratio = 0.05;
 constexpr double kStep_m = 0.05;
 constexpr std::array kStatuses{Status::ok, Status::degraded, Status::relocalizing, Status::lost,
@@ -34,7 +35,10 @@ struct Counts {
         }
   }
   std::size_t ok() const { return of[0]; }
-  std::size_t lost() const { return of[2]; }
+  std::size_t lost() const {
+    return of[static_cast<std::size_t>(std::find(kStatuses.begin(), kStatuses.end(), Status::lost) -
+                                       kStatuses.begin())];
+  }
 };
 
 std::string percent(std::size_t part, std::size_t whole) {
@@ -150,6 +154,42 @@ void add_status_table(Page& page, const Counts& counts) {
   page.table(table);
 }
 
+/// What bounds the errors, where anything does; whether the quality keeps its word, where that is known.
+void add_trust(Page& page, const RunReport& report, const RunClock& clock) {
+  const bool is_bounded =
+      std::any_of(report.estimates.begin(), report.estimates.end(), [](const PoseEstimate& e) {
+        return e.protection_m < PoseEstimate::kUnbounded_m || e.protection_rad < kPi;
+      });
+  if (!is_bounded && report.judged.empty()) return;
+  page.heading("Trust");
+  if (is_bounded) {
+    page.begin_row();
+    page.figure(draw_position_protection(report, clock),
+                "The true position is within the level, but for one scan in ten thousand.");
+    page.figure(draw_heading_protection(report, clock), "The same of the heading.");
+    page.end_row();
+  }
+  if (!report.judged.empty())
+    page.figure(draw_reliability(report), "How often poses of a quality were where they said to be.");
+}
+
+void add_places_table(Page& page, const RunReport& report) {
+  Table table{"Places that fitted",
+              {"time [s]", "scan", "place", "x [m]", "y [m]", "heading [deg]", "score", "weight"},
+              {}};
+  for (const CandidatePlaces& fitted : report.places)
+    for (std::size_t i = 0; i < fitted.places.size() && table.rows.size() < kMostPlaces; ++i) {
+      const CandidatePlace& place = fitted.places[i];
+      const double at_s =
+          report.estimates.empty() ? 0.0 : seconds_between(report.estimates.front().stamp, fitted.stamp);
+      table.rows.push_back({number(at_s, 2), std::to_string(fitted.scan_index), std::to_string(i + 1),
+                            number(place.map_from_base.x_m, 2), number(place.map_from_base.y_m, 2),
+                            number(degrees(place.map_from_base.theta_rad), 1), number(place.score, 2),
+                            number(place.weight, 2)});
+    }
+  if (!table.rows.empty()) page.table(table);
+}
+
 void add_figures(Page& page, const RunReport& report, const RunClock& clock) {
   page.heading("Map");
   page.figure(draw_run_map(report), "The path in the map frame, one scale for both axes.");
@@ -166,9 +206,11 @@ void add_figures(Page& page, const RunReport& report, const RunClock& clock) {
     page.figure(draw_position_sigma(report, clock), "Root of the variances of x and y together.");
     page.figure(draw_heading_sigma(report, clock), "Root of the variance of the heading.");
     page.end_row();
+    add_trust(page, report, clock);
     page.heading("Quality and speed");
     page.begin_row();
-    page.figure(draw_quality(report, clock), "1: every beam ends where the map has a wall.");
+    page.figure(draw_quality(report, clock),
+                "How far the pose deserves trust; a pose that is ok at 0.5 or more does.");
     if (!report.update_times_us.empty())
       page.figure(draw_update_times(report),
                   "Time of the localizer's update alone, without reading the recording.");
@@ -215,6 +257,7 @@ std::string html(const RunReport& report) {
   page.heading("Tables");
   add_error_table(page, report);
   add_status_table(page, counts);
+  add_places_table(page, report);
   add_notes(page, report);
   return page.html();
 }
