@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/report/contradictions.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include "beaconless/map/surface_map.hpp"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kReach_m = 1.0;
 constexpr double kMeets_m = 0.015;  // nearer than this to a surface a beam meets it
+constexpr double kBehind_m = 0.15;  // … and passes through it if it ends this far on its other side
 constexpr double kStart_m = 0.1;    // from the laser
 
 template <SurfaceIndex Index>
@@ -18,15 +20,23 @@ double clear_m(const Index& map, const Eigen::Vector2d& at) {
   return surface ? surface->distance_m : map.reach_m();
 }
 
-/// Sphere tracing as see_through_share does it.
+/// How far a beam ends behind a surface, seen from where it began; negative in front of it.
+double behind_m(const SurfacePoint& surface, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const double side = surface.normal.dot(from - surface.point) < 0.0 ? 1.0 : -1.0;
+  return side * surface.normal.dot(to - surface.point);
+}
+
+/// Sphere tracing as see_through_share does it. Differs: a beam that grazes the wall on which it ends does
+/// not lead through it.
 template <SurfaceIndex Index>
 bool leads_through_a_wall(const Index& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const double length_m = (to - from).norm();
   const Eigen::Vector2d way = (to - from) / length_m;
   for (double at_m = kStart_m; at_m < length_m - kContradicts_m;) {
-    const double step_m = clear_m(map, from + at_m * way);
-    if (step_m < kMeets_m) return true;
-    at_m += step_m;
+    const auto surface = map.nearest(from + at_m * way);
+    const double clear = surface ? surface->distance_m : map.reach_m();
+    if (clear < kMeets_m && behind_m(*surface, from, to) > kBehind_m) return true;
+    at_m += std::max(clear, kMeets_m);
   }
   return false;
 }

@@ -15,17 +15,19 @@ std::string with(std::string_view classes, Colour colour) {
 }
 
 /// The heading and the words of one point.
-void draw_details(Picture& picture, const Eigen::Vector2d& at, std::size_t i, const MapMarks& marks) {
+void draw_details(Picture& picture, const WorldView& view, const Eigen::Vector2d& at, std::size_t i,
+                  const MapMarks& marks) {
   const bool looks = i < marks.headings_rad.size();
   const double theta_rad = looks ? marks.headings_rad[i] : 0.0;
   const Eigen::Vector2d ahead(std::cos(theta_rad), -std::sin(theta_rad));
   if (looks)
     picture.svg.line(at + kRing_px * ahead, at + kHeading_px * ahead, with("line thick", marks.colour));
   if (i >= marks.labels.size()) return;
-  // Above, unless the heading points there.
+  // To the side where there is less room, because draw_ends names start and end on the other.
   const bool below = ahead.y() < 0.0;
-  picture.svg.text(at + Eigen::Vector2d(10.0, below ? 14.0 : -14.0), marks.labels[i], "tag",
-                   TextSide::middle);
+  const bool left = at.x() < 0.5 * (view.top_left_px.x() + view.bottom_right_px().x());
+  picture.svg.text(at + Eigen::Vector2d(left ? -10.0 : 10.0, below ? 14.0 : -14.0), marks.labels[i],
+                   left ? "tag end" : "tag", TextSide::middle);
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ void draw_marks(Picture& picture, const WorldView& view, const MapMarks& marks) 
       picture.svg.rect(at.array() - kSquare_px, at.array() + kSquare_px, with("marker", marks.colour));
     else
       picture.svg.circle(at, kRing_px, with("marker", marks.colour));
-    draw_details(picture, at, i, marks);
+    draw_details(picture, view, at, i, marks);
   }
   if (!dots.empty()) picture.svg.path(dots, with("dots", marks.colour));
   if (is_any) picture.legend.push_back({marks.name, marks.mark, marks.colour});

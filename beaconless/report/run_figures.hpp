@@ -18,14 +18,15 @@ class RunClock {
   explicit RunClock(const RunReport& report);
 
   double operator()(Stamp stamp) const;
-  const std::string& title() const { return title_; }  ///< "time [s]"
+  std::string title() const { return "time [" + unit_ + "]"; }
+  const std::string& unit() const { return unit_; }  ///< s, min or h
   double duration_s() const { return duration_s_; }
 
  private:
   double start_s_ = 0.0;
   double duration_s_ = 0.0;
   double unit_s_ = 1.0;
-  std::string title_ = "time [s]";
+  std::string unit_ = "s";
 };
 
 /// A length in metres shown in a unit that needs few digits.

@@ -10,7 +10,7 @@ namespace {
 MapMarks ghosts_of(const CandidatePlaces& fitted, const RunClock& clock) {
   MapMarks marks;
   marks.name = grouped(fitted.place_count) + (fitted.place_count == 1 ? " place fits" : " places fit") +
-               " at " + number(clock(fitted.stamp), 1) + " " + clock.title().substr(clock.title().find('['));
+               " at " + number(clock(fitted.stamp), 1) + " " + clock.unit();
   marks.colour = Colour::sky;
   for (std::size_t i = 0; i < fitted.places.size(); ++i) {
     const CandidatePlace& place = fitted.places[i];

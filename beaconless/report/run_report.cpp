@@ -154,23 +154,19 @@ void add_status_table(Page& page, const Counts& counts) {
   page.table(table);
 }
 
-/// What bounds the errors, where anything does; whether the quality keeps its word, where that is known.
-void add_trust(Page& page, const RunReport& report, const RunClock& clock) {
+/// What bounds the errors, where anything does.
+void add_protection(Page& page, const RunReport& report, const RunClock& clock) {
   const bool is_bounded =
       std::any_of(report.estimates.begin(), report.estimates.end(), [](const PoseEstimate& e) {
         return e.protection_m < PoseEstimate::kUnbounded_m || e.protection_rad < kPi;
       });
-  if (!is_bounded && report.judged.empty()) return;
-  page.heading("Trust");
-  if (is_bounded) {
-    page.begin_row();
-    page.figure(draw_position_protection(report, clock),
-                "The true position is within the level, but for one scan in ten thousand.");
-    page.figure(draw_heading_protection(report, clock), "The same of the heading.");
-    page.end_row();
-  }
-  if (!report.judged.empty())
-    page.figure(draw_reliability(report), "How often poses of a quality were where they said to be.");
+  if (!is_bounded) return;
+  page.heading("Protection levels");
+  page.begin_row();
+  page.figure(draw_position_protection(report, clock),
+              "The true position is within the level, but for one scan in ten thousand.");
+  page.figure(draw_heading_protection(report, clock), "The same of the heading.");
+  page.end_row();
 }
 
 void add_places_table(Page& page, const RunReport& report) {
@@ -206,11 +202,13 @@ void add_figures(Page& page, const RunReport& report, const RunClock& clock) {
     page.figure(draw_position_sigma(report, clock), "Root of the variances of x and y together.");
     page.figure(draw_heading_sigma(report, clock), "Root of the variance of the heading.");
     page.end_row();
-    add_trust(page, report, clock);
+    add_protection(page, report, clock);
     page.heading("Quality and speed");
     page.begin_row();
     page.figure(draw_quality(report, clock),
                 "How far the pose deserves trust; a pose that is ok at 0.5 or more does.");
+    if (!report.judged.empty())
+      page.figure(draw_reliability(report), "How often poses of a quality are where they say to be.");
     if (!report.update_times_us.empty())
       page.figure(draw_update_times(report),
                   "Time of the localizer's update alone, without reading the recording.");

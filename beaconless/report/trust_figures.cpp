@@ -36,12 +36,10 @@ Picture draw_protection(const RunReport& report, const RunClock& clock, const st
   if (!error.x.empty()) plot.series.push_back(std::move(error));
   plot.series.push_back(std::move(level));
   Picture picture = draw_plot(plot);
-  const auto beyond = std::count_if(report.judged.begin(), report.judged.end(), [](const auto& e) {
-    return e.status != Status::lost && e.is_bounded() && e.is_beyond_protection();
-  });
-  if (!report.judged.empty())
-    picture.note = grouped(static_cast<std::size_t>(beyond)) + " of " + grouped(report.judged.size()) +
-                   " poses are further off than their protection level.";
+  const eval::Trust trust = eval::trust_of(report.judged);
+  if (trust.bounded_count > 0)
+    picture.note = grouped(trust.violation_count) + " of " + grouped(trust.bounded_count) +
+                   " poses are further off than their protection level says, in position or heading.";
   return picture;
 }
 

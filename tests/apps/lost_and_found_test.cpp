@@ -100,7 +100,7 @@ TEST_F(LostAndFound, ABoxReplaysTheRunThatWroteIt) {
   }());
   std::size_t scans = 0;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("ROBOTLASER1") && ++scans > 20)
+    if (line.starts_with("RAWLASER1") && ++scans > 20)
       for (std::size_t at = 0; (at = line.find(" 1.", at)) != std::string::npos;) line[at + 1] = '3';
     log += line + "\n";
   }

@@ -37,7 +37,7 @@ TEST(RunTrust, PlacesThatFittedAreDrawnNumberedAndListed) {
   const RunReport report = found_run();
   const std::string page = html(report);
   EXPECT_EQ(xml_fault(page), "");
-  EXPECT_THAT(page, HasSubstr("2 places fit at 0 [s]"));
+  EXPECT_THAT(page, HasSubstr("2 places fit at 0 s"));
   EXPECT_THAT(page, HasSubstr("1: 62 %"));
   EXPECT_THAT(page, HasSubstr("2: 38 %"));
   EXPECT_THAT(page, HasSubstr("Places that fitted"));
@@ -73,7 +73,7 @@ TEST(RunTrust, ProtectionIsDrawnWhereSomethingBoundsTheError) {
   report.judged.back().position_error_m = 0.06;
   const std::string page = html(report);
   EXPECT_EQ(xml_fault(page), "");
-  EXPECT_THAT(page, HasSubstr("1 of 10 poses are further off than their protection level."));
+  EXPECT_THAT(page, HasSubstr("1 of 10 poses are further off than their protection level says"));
   EXPECT_THAT(page, HasSubstr("Poses of each tenth: 10."));
 }
 
