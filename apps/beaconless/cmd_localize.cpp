@@ -25,7 +25,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
       ->add_option("--loss", words->loss,
                    "Robust criterion of ICP: huber, cauchy, tukey, welsch, geman-mcclure")
       ->check(CLI::IsMember({"huber", "cauchy", "tukey", "welsch", "geman-mcclure"}));
-  command->add_option("--start", words->start, "Start pose of the base, x,y,deg");
+  command->add_option("--start", words->start,
+                      "Where the base is: x,y,deg, auto (anywhere), near:x,y,radius, resume:FILE");
   command->add_option("--start-from", words->start_from,
                       "Start pose from a TUM file, or 'recorded': from the recording");
   command->add_option("--base-from-laser", words->base_from_laser,
@@ -35,6 +36,12 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Which poses 'recorded' means, where there are several");
   command->add_option("--alone", words->alone,
                       "Take every scan for itself: start it METRES,DEGREES away from its --start-from pose");
+  command->add_option("--windows", words->windows,
+                      "Find every LENGTH:STRIDE scans by themselves, from --start auto or near");
+  command->add_option("--save-pose", words->save_pose,
+                      "Keep the last good pose in a file, for --start resume:FILE");
+  command->add_option("--blackbox", words->black_box,
+                      "Folder for the last half minute of events whenever the robot loses its way");
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")

@@ -24,6 +24,9 @@ struct LocalizeWords {
   std::string pose_topic;
   std::string reference;
   std::string alone;
+  std::string windows;
+  std::string save_pose;
+  std::string black_box;
   std::string config;
   std::vector<std::string> set;
   double sigma_m = 0.0;  ///< 0: the config's

@@ -51,7 +51,7 @@ int run(int argc, char** argv) {
   app.add_flag("-q,--quiet", console.quiet, "Print results and errors only");
   app.add_flag("--json", console.json, "Print the result as one JSON object");
   app.footer(
-      "Exit codes: 0 good, 2 usage, 3 data, 4 localization lost.\n"
+      "Exit codes: 0 good, 2 usage, 3 data, 4 localization lost or still ambiguous.\n"
       "Begin with:  beaconless demo --out out/demo");
   add_localize(app, console, exit_code);
   add_evaluate(app, console, exit_code);

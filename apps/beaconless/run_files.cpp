@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "beaconless/io/tum.hpp"
 #include "beaconless/report/run_report.hpp"
 
+#include "run_summary.hpp"
 #include "tables.hpp"
 
 namespace beaconless::cli {
@@ -21,50 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Trajectory trajectory_of(const Run& run) {
+/// The poses that are given for one: a robot that is being found has none yet, and a window only a good one.
+Trajectory told_poses(const Run& run) {
   std::vector<StampedPose> poses;
-  for (const PoseEstimate& estimate : run.replay.estimates)
-    poses.push_back({estimate.stamp, estimate.map_from_base});
+  for (const PoseEstimate& estimate : run.replay.estimates) {
+    const bool is_told = estimate.status != Status::relocalizing && estimate.status != Status::not_started;
+    if (is_told && (!run.windows || estimate.ok())) poses.push_back({estimate.stamp, estimate.map_from_base});
+  }
   return Trajectory(std::move(poses));
-}
-
-std::map<std::string, std::size_t> status_counts(const Run& run) {
-  std::map<std::string, std::size_t> counts;
-  for (const PoseEstimate& estimate : run.replay.estimates) ++counts[std::string(to_string(estimate.status))];
-  return counts;
-}
-
-/// Why estimates were not ok, and how many each time.
-std::map<std::string, std::size_t> reason_counts(const Run& run) {
-  std::map<std::string, std::size_t> counts;
-  for (const PoseEstimate& estimate : run.replay.estimates)
-    if (!estimate.ok()) ++counts[fmt::format("{}: {}", to_string(estimate.status), estimate.reason)];
-  return counts;
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-nlohmann::json summary_of(const LocalizeWords& words, const Run& run,
-                          const std::optional<Judgement>& judgement) {
-  const auto& times = run.replay.update_us;
-  nlohmann::json summary = {{"method", run.config.method},
-                            {"recording", words.recording},
-                            {"map", words.map},
-                            {"scans", run.replay.estimates.size()},
-                            {"status_counts", status_counts(run)},
-                            {"reason_counts", reason_counts(run)},
-                            {"skipped_records", run.replay.skipped_records},
-                            {"update_us",
-                             {{"median", percentile(times, 0.5)},
-                              {"p99", percentile(times, 0.99)},
-                              {"max", percentile(times, 1.0)}}}};
-  if (judgement) summary["error"] = to_json(*judgement);
-  return summary;
 }
 
 std::string config_text(const Run& run) {
@@ -85,6 +49,9 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
   page.estimates = run.replay.estimates;
   page.reference = run.reference;
   page.scans = run.replay.overlay;
+  page.good_scans = run.replay.good_scans;
+  page.places = run.replay.places;
+  if (run.reference) page.judged = eval::judge_estimates(run.replay.estimates, *run.reference);
   page.update_times_us = run.replay.update_us;
   page.config_text = config_text(run);
   page.problems = run.problems;
@@ -93,6 +60,7 @@ report::RunReport report_of(const LocalizeWords& words, const Run& run,
         fmt::format("{} records of the recording were passed over", run.replay.skipped_records));
   for (const auto& [reason, count] : reason_counts(run))
     page.problems.push_back(fmt::format("{} of {} scans {}", count, run.replay.estimates.size(), reason));
+  for (const std::string& jump : jumps_of(run)) page.problems.push_back(jump);
   if (!judgement) return page;
   page.errors = judgement->evaluation.errors;
   page.bounds = judgement->bounds;
@@ -114,10 +82,13 @@ Result<std::vector<std::string>> write_files(const fs::path& folder, const Run& 
   io::EstimatesCsvWriter csv(path_of("estimates.csv"));
   for (const PoseEstimate& estimate : run.replay.estimates) csv.write(estimate);
   if (auto written = csv.finish(); !written) return written.error();
+  const std::string windows = run.windows ? run.windows->csv : "";
   for (const auto& [name, text] : {std::pair{"config.yaml", config_text(run)},
                                    {"summary.json", json_text(summary) + "\n"},
                                    {"map.svg", report::draw_run_svg(page)},
-                                   {"report.html", report::html(page)}}) {
+                                   {"report.html", report::html(page)},
+                                   {"windows.csv", windows}}) {
+    if (text.empty()) continue;
     const std::string path = path_of(name);
     std::ofstream out(path, std::ios::binary);
     out << text;
@@ -132,17 +103,43 @@ void tell(const Console& console, const Run& run, const nlohmann::json& summary,
   for (const auto& [status, count] : status_counts(run))
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, status);
   const auto& times = summary["update_us"];
-  console.say(fmt::format("{} scans by {}: {}", run.replay.estimates.size(), run.config.method, counts));
+  console.say(fmt::format("{} {} by {}: {}", run.replay.estimates.size(), run.windows ? "windows" : "scans",
+                          run.config.method, counts));
   for (const auto& [reason, count] : reason_counts(run)) console.say(fmt::format("  {} {}", count, reason));
+  for (const std::string& line : ambiguous_lines(run)) console.say(line);
+  if (const std::size_t jumps = jumps_of(run).size(); jumps > 0)
+    console.say(fmt::format("the pose jumped {} times", jumps));
   console.say(fmt::format("update: median {:.0f} µs, p99 {:.0f} µs, max {:.0f} µs",
                           times["median"].get<double>(), times["p99"].get<double>(),
                           times["max"].get<double>()));
+  if (run.windows)
+    for (const std::string& line : run.windows->lines) console.say(line);
   if (!judgement) return;
   console.say("\nerror against the reference, as it is\n" + table_text(judgement->evaluation.raw));
   console.say("after rigid alignment\n" + table_text(judgement->evaluation.aligned));
   if (judgement->crb_ratio)
     console.say(fmt::format("{:.2f} (position) and {:.2f} (heading) times the Cramér–Rao bound\n",
                             judgement->crb_ratio->position, judgement->crb_ratio->heading));
+}
+
+/// How it ended: the exit code, and a word about it where it is not good.
+int tell_end(const Console& console, const Run& run) {
+  const auto& estimates = run.replay.estimates;
+  const auto is_any = [&](Status status) {
+    return std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.status == status; });
+  };
+  const bool ever_found = is_any(Status::ok);
+  const Status end = estimates.back().status;
+  if (ever_found && (run.windows || (end != Status::lost && end != Status::relocalizing))) return exit_good;
+  console.warn(
+      run.windows                   ? "no window was found"
+      : end == Status::relocalizing ? "at the end of the recording several places fit: drive on, or say "
+                                      "where by --start near:x,y,radius"
+      : ever_found                  ? "the robot is lost at the end of the recording"
+      : is_any(Status::lost)
+          ? "the robot is lost, it was never found: check the start pose, the map and --base-from-laser"
+          : run.config.method + " found no pose itself: try another method, or other parameters");
+  return exit_lost;
 }
 
 }  // namespace
@@ -157,7 +154,7 @@ Result<Done> make_folder(const std::string& folder) {
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run) {
   std::optional<Judgement> judgement;
   if (run.reference)
-    judgement = judge(trajectory_of(run), *run.reference, run.map.get(),
+    judgement = judge(told_poses(run), *run.reference, run.map.get(),
                       eval::sensor_of(run.first_scan, run.config.icp.sigma_m), run.config.base_from_laser);
   if (judgement && judgement->evaluation.errors.empty()) {
     console.warn("no estimate has a reference at its stamp; do both use the same clock?");
@@ -172,18 +169,7 @@ int finish_run(const Console& console, const LocalizeWords& words, const Run& ru
     for (const std::string& path : *paths) console.say("  " + path);
   }
   console.result(summary);
-  const auto& estimates = run.replay.estimates;
-  const auto is_any = [&](Status status) {
-    return std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.status == status; });
-  };
-  const bool ever_found = is_any(Status::ok);
-  if (ever_found && estimates.back().status != Status::lost) return exit_good;
-  console.warn(
-      ever_found ? "the robot is lost at the end of the recording"
-      : is_any(Status::lost)
-          ? "the robot is lost, it was never found: check the start pose, the map and --base-from-laser"
-          : run.config.method + " found no pose itself: try another method, or other parameters");
-  return exit_lost;
+  return tell_end(console, run);
 }
 
 }  // namespace beaconless::cli

@@ -15,14 +15,22 @@
 
 namespace beaconless::cli {
 
+/// What is told of a recording that was localized in windows.
+struct WindowFiles {
+  nlohmann::json summary;
+  std::vector<std::string> lines;
+  std::string csv;
+};
+
 /// A finished run of a localizer.
 struct Run {
   LocalizerConfig config;
   std::shared_ptr<const Map> map;
-  std::optional<Trajectory> reference;
+  std::optional<Trajectory> reference = {};
   Scan first_scan;
-  Replay replay;
-  std::vector<std::string> problems;
+  Replay replay = {};
+  std::optional<WindowFiles> windows = {};  ///< then each estimate is that of a window
+  std::vector<std::string> problems = {};
 };
 
 /// Makes the folder for a run's files, before the work that fills them.

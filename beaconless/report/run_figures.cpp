@@ -94,7 +94,7 @@ double unless_above(double value, double limit) { return value <= limit ? value 
 
 Picture draw_run_map(const RunReport& report, const MapViewConfig& config) {
   return draw_map(report.map ? *report.map : Map{kNoWalls}, report.estimates,
-                  report.reference.value_or(Trajectory{}), report.scans, config);
+                  report.reference.value_or(Trajectory{}), report.scans, marks_of(report), config);
 }
 
 Picture draw_position_error(const RunReport& report, const RunClock& clock) {
@@ -135,8 +135,9 @@ Picture draw_heading_sigma(const RunReport& report, const RunClock& clock) {
 }
 
 Picture draw_quality(const RunReport& report, const RunClock& clock) {
-  Plot plot = over_time(report, clock, "quality: share of the scan that the map explains [1]");
+  Plot plot = over_time(report, clock, "quality [1]");
   plot.y_high = 1.0;
+  plot.level = Level{eval::kTrusted_quality, "trusted from here on"};
   plot.series.push_back(estimate_series(report, clock, [](const PoseEstimate& e) { return e.quality; }));
   return draw_plot(plot);
 }

@@ -18,14 +18,15 @@ class RunClock {
   explicit RunClock(const RunReport& report);
 
   double operator()(Stamp stamp) const;
-  const std::string& title() const { return title_; }  ///< "time [s]"
+  std::string title() const { return "time [" + unit_ + "]"; }
+  const std::string& unit() const { return unit_; }  ///< s, min or h
   double duration_s() const { return duration_s_; }
 
  private:
   double start_s_ = 0.0;
   double duration_s_ = 0.0;
   double unit_s_ = 1.0;
-  std::string title_ = "time [s]";
+  std::string unit_ = "s";
 };
 
 /// A length in metres shown in a unit that needs few digits.
@@ -55,5 +56,15 @@ Picture draw_position_sigma(const RunReport& report, const RunClock& clock);
 Picture draw_heading_sigma(const RunReport& report, const RunClock& clock);
 Picture draw_quality(const RunReport& report, const RunClock& clock);
 Picture draw_update_times(const RunReport& report);
+
+/// The protection levels of the estimates, above the errors where there is a reference.
+Picture draw_position_protection(const RunReport& report, const RunClock& clock);
+Picture draw_heading_protection(const RunReport& report, const RunClock& clock);
+
+/// How often poses of a quality are near the reference, against that quality.
+Picture draw_reliability(const RunReport& report);
+
+/// What is marked in the map besides the path: candidate places, and beams that contradict the map.
+std::vector<MapMarks> marks_of(const RunReport& report);
 
 }  // namespace beaconless::report

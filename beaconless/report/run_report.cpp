@@ -9,6 +9,7 @@
 
 #include "beaconless/report/html.hpp"
 #include "beaconless/report/run_figures.hpp"
+#include "beaconless/report/run_tables.hpp"
 #include "beaconless/report/text.hpp"
 
 namespace beaconless::report {
@@ -34,7 +35,10 @@ struct Counts {
         }
   }
   std::size_t ok() const { return of[0]; }
-  std::size_t lost() const { return of[2]; }
+  std::size_t lost() const {
+    return of[static_cast<std::size_t>(std::find(kStatuses.begin(), kStatuses.end(), Status::lost) -
+                                       kStatuses.begin())];
+  }
 };
 
 std::string percent(std::size_t part, std::size_t whole) {
@@ -117,37 +121,27 @@ std::vector<Card> cards_of(const RunReport& report, const Counts& counts, const 
   return cards;
 }
 
-std::vector<std::string> row_of(const std::string& name, const eval::Statistics& row, double factor) {
-  // As many decimals for all as give the RMSE three digits and the median two: a row is read by comparing.
-  const auto decimals_for = [&](double value, int digits) {
-    if (!(value > 0.0) || !std::isfinite(value)) return 0;
-    return digits - 1 - static_cast<int>(std::floor(std::log10(factor * value)));
-  };
-  const int decimals = std::clamp(std::max(decimals_for(row.rmse, 3), decimals_for(row.median, 2)), 0, 6);
-  std::vector<std::string> cells{name};
-  for (const double value : {row.mean, row.rmse, row.sd, row.max, row.min, row.median, row.p95})
-    cells.push_back(std::isfinite(value) ? fmt::format("{:.{}f}", factor * value, decimals) : "–");
-  return cells;
-}
-
-void add_error_table(Page& page, const RunReport& report) {
-  Table table{"Error against the reference", {"", "mean", "RMSE", "SD", "max", "min", "median", "p95"}, {}};
-  const auto add = [&](const eval::ErrorTable& error, const std::string& how) {
-    const LengthUnit unit = LengthUnit::for_size(error.position_m.rmse);
-    table.rows.push_back(row_of("position [" + unit.name + "], " + how, error.position_m, unit.per_m));
-    table.rows.push_back(row_of("heading [deg], " + how, error.heading_deg, 1.0));
-  };
-  if (report.error) add(*report.error, "as it is");
-  if (report.error_aligned) add(*report.error_aligned, "aligned");
-  if (!table.rows.empty()) page.table(table);
-}
-
 void add_status_table(Page& page, const Counts& counts) {
   Table table{"Status of the scans", {"status", "scans", "share"}, {}};
   for (std::size_t i = 0; i < kStatuses.size(); ++i)
     if (counts.of[i] > 0 || kStatuses[i] != Status::not_started)
       table.rows.push_back({words(kStatuses[i]), grouped(counts.of[i]), percent(counts.of[i], counts.scans)});
   page.table(table);
+}
+
+/// What bounds the errors, where anything does.
+void add_protection(Page& page, const RunReport& report, const RunClock& clock) {
+  const bool is_bounded =
+      std::any_of(report.estimates.begin(), report.estimates.end(), [](const PoseEstimate& e) {
+        return e.protection_m < PoseEstimate::kUnbounded_m || e.protection_rad < kPi;
+      });
+  if (!is_bounded) return;
+  page.heading("Protection levels");
+  page.begin_row();
+  page.figure(draw_position_protection(report, clock),
+              "The true position is within the level, but for one scan in ten thousand.");
+  page.figure(draw_heading_protection(report, clock), "The same of the heading.");
+  page.end_row();
 }
 
 void add_figures(Page& page, const RunReport& report, const RunClock& clock) {
@@ -166,9 +160,13 @@ void add_figures(Page& page, const RunReport& report, const RunClock& clock) {
     page.figure(draw_position_sigma(report, clock), "Root of the variances of x and y together.");
     page.figure(draw_heading_sigma(report, clock), "Root of the variance of the heading.");
     page.end_row();
+    add_protection(page, report, clock);
     page.heading("Quality and speed");
     page.begin_row();
-    page.figure(draw_quality(report, clock), "1: every beam ends where the map has a wall.");
+    page.figure(draw_quality(report, clock),
+                "How far the pose deserves trust; a pose that is ok at 0.5 or more does.");
+    if (!report.judged.empty())
+      page.figure(draw_reliability(report), "How often poses of a quality are where they say to be.");
     if (!report.update_times_us.empty())
       page.figure(draw_update_times(report),
                   "Time of the localizer's update alone, without reading the recording.");
@@ -213,8 +211,9 @@ std::string html(const RunReport& report) {
   page.cards(cards_of(report, counts, clock));
   add_figures(page, report, clock);
   page.heading("Tables");
-  add_error_table(page, report);
+  if (const Table errors = error_table(report); !errors.rows.empty()) page.table(errors);
   add_status_table(page, counts);
+  if (const Table places = places_table(report); !places.rows.empty()) page.table(places);
   add_notes(page, report);
   return page.html();
 }

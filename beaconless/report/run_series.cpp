@@ -46,10 +46,10 @@ RunClock::RunClock(const RunReport& report) {
   duration_s_ = end_s - start_s_;
   if (duration_s_ >= kHoursFrom_s) {
     unit_s_ = 3600.0;
-    title_ = "time [h]";
+    unit_ = "h";
   } else if (duration_s_ >= kMinutesFrom_s) {
     unit_s_ = 60.0;
-    title_ = "time [min]";
+    unit_ = "min";
   }
 }
 

@@ -99,7 +99,8 @@ TEST_F(Localize, SummaryHasTheKeysThatOthersRead) {
   EXPECT_EQ(ran.json(), summary);
   EXPECT_EQ(keys_of(summary),
             (std::set<std::string>{"method", "recording", "map", "scans", "status_counts", "reason_counts",
-                                   "skipped_records", "update_us", "error"}));
+                                   "skipped_records", "update_us", "error", "quality", "protection_m",
+                                   "protection_rad", "jumps", "trust"}));
   EXPECT_TRUE(summary["reason_counts"].empty());
   EXPECT_EQ(summary["method"], "walls");
   EXPECT_EQ(summary["scans"], kScans);

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Switching off and on, the black box, and what is told of a robot that is not found.
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "beaconless/io/estimates_csv.hpp"
+#include "beaconless/io/last_pose.hpp"
+#include "beaconless/io/yaml_tree.hpp"
+
+#include "apps/beaconless/replay.hpp"
+#include "tests/apps/drive.hpp"
+#include "tests/apps/fake_localizer.hpp"
+#include "tests/apps/kept_recording.hpp"
+
+namespace beaconless {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+
+class LostAndFound : public Drive {
+ protected:
+  Words localize_from(const std::string& start) const {
+    return {"localize", recording(), "--map", plan(), "--base-from-laser", "0.7,0,0", "--start", start};
+  }
+  /// The boxes of a run, in order of time.
+  std::vector<std::string> boxes() const {
+    std::vector<std::string> folders;
+    if (std::filesystem::exists(folder.path("boxes")))
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path("boxes")))
+        folders.push_back(entry.path().string());
+    std::sort(folders.begin(), folders.end());
+    return folders;
+  }
+};
+
+TEST_F(LostAndFound, APoseThatWasSavedIsGoneOnFrom) {
+  const std::string pose = folder.path("pose.yaml");
+  const Ran first = run(localize() + Words{"--scans", ":20", "--save-pose", pose, "--out", folder.path("a")});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const auto last = io::read_last_pose(pose).value();
+  const auto estimates = io::read_estimates_csv(folder.path("a/estimates.csv")).value();
+  EXPECT_EQ(last.map_from_base, estimates.back().map_from_base);
+  EXPECT_EQ(last.stamp, estimates.back().stamp);
+
+  const Ran second = run(localize_from("resume:" + pose) + Words{"--scans", "20:", "--reference", truth(),
+                                                                 "--out", folder.path("b"), "--json"});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(second.json()["status_counts"], (nlohmann::json{{"ok", 20}}));
+  EXPECT_LT(second.json()["error"]["position_m"]["max"], 0.01);
+  EXPECT_THAT(second.err, Not(HasSubstr("searched everywhere")));
+  EXPECT_THAT(second.err, Not(HasSubstr("older")));
+}
+
+TEST_F(LostAndFound, APoseOfAnotherMapIsRefused) {
+  const std::string pose = folder.path("pose.yaml");
+  ASSERT_EQ(run(localize() + Words{"--scans", ":5", "--save-pose", pose}).exit_code, 0);
+  const Ran other =
+      run({"localize", recording(), "--map", folder.path("elsewhere.yaml"), "--start", "resume:" + pose});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.err, HasSubstr("the pose is one on the map plan.yaml, not on elsewhere.yaml"));
+  folder.write("sim/plan.yaml", folder.read("sim/plan.yaml") + "# repainted\n");
+  const Ran changed = run(localize_from("resume:" + pose));
+  EXPECT_EQ(changed.exit_code, 3);
+  EXPECT_THAT(changed.err, HasSubstr("the map has changed"));
+  EXPECT_EQ(run(localize_from("resume:" + folder.path("gone.yaml"))).exit_code, 3);
+}
+
+TEST_F(LostAndFound, AnOldPoseIsToldAndAWrongOneIsSearchedFor) {
+  const std::string path = folder.path("pose.yaml");
+  ASSERT_EQ(run(localize() + Words{"--scans", ":5", "--save-pose", path}).exit_code, 0);
+  io::LastPose pose = io::read_last_pose(path).value();
+  pose.stamp = pose.stamp + -3.0 * 86400.0;
+  pose.map_from_base = {7.0, 2.6, 1.0};
+  ASSERT_TRUE(io::write_last_pose(path, pose));
+  const Ran ran = run(localize_from("resume:" + path));
+  EXPECT_THAT(ran.err, HasSubstr("3 days older than the first scan"));
+  EXPECT_THAT(ran.err, HasSubstr("searched everywhere"));
+}
+
+TEST_F(LostAndFound, DisksThatRefuseDoNotStopTheRun) {
+  folder.write("file", "no folder");
+  const Ran ran = run(localize() + Words{"--save-pose", folder.path("file/pose.yaml"), "--blackbox",
+                                         folder.path("file/boxes")});
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("the last pose is not saved"));
+  EXPECT_THAT(ran.out, HasSubstr("40 scans by walls: 40 ok"));
+}
+
+TEST_F(LostAndFound, ABoxReplaysTheRunThatWroteIt) {
+  // From the 21st scan on, walls that were between one and two metres away are two metres further.
+  std::string log;
+  std::istringstream lines([&] {
+    const Ran unpacked = run_program(folder, "/usr/bin/gzip", {"-dc", recording()});
+    return unpacked.out;
+  }());
+  std::size_t scans = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("RAWLASER1") && ++scans > 20)
+      for (std::size_t at = 0; (at = line.find(" 1.", at)) != std::string::npos;) line[at + 1] = '3';
+    log += line + "\n";
+  }
+  ASSERT_EQ(scans, kScans);
+  const std::string drive = folder.write("drive.log", log);
+  const Ran ran = run({"localize", drive, "--map", plan(), "--base-from-laser", "0.7,0,0", "--start-from",
+                       truth(), "--set", "health.lost_after_scans=3", "--blackbox", folder.path("boxes"),
+                       "--out", folder.path("run")});
+  ASSERT_THAT(boxes(), testing::Not(testing::IsEmpty())) << ran.err << ran.out;
+  EXPECT_THAT(ran.err, HasSubstr("black box: " + boxes().front()));
+  const auto why = io::read_yaml(boxes().front() + "/why.yaml").value();
+  const Ran again = run({"localize", boxes().front() + "/recording.log", "--map", why.find("map")->text,
+                         "--config", boxes().front() + "/config.yaml", "--start=" + why.find("start")->text,
+                         "--out", folder.path("again")});
+  EXPECT_THAT(again.exit_code, testing::AnyOf(0, 4)) << again.err;
+  const auto then = io::read_estimates_csv(boxes().front() + "/estimates.csv").value();
+  const auto now = io::read_estimates_csv(folder.path("again/estimates.csv")).value();
+  ASSERT_EQ(now.size(), then.size());
+  for (std::size_t i = 0; i < then.size(); ++i) {
+    EXPECT_EQ(now[i].stamp, then[i].stamp);
+    EXPECT_EQ(now[i].status, then[i].status) << i;
+    EXPECT_LT(distance_m(now[i].map_from_base, then[i].map_from_base), 1e-9) << i;
+  }
+}
+
+cli::Replay replayed(FakeLocalizer& localizer, std::size_t scans) {
+  localizer.start_anywhere({});
+  return cli::replay(recording_of(drive_of(scans)), {}, localizer, {}, cli::Console{.quiet = true});
+}
+
+TEST(ReplayPlaces, KeepsTheFirstAndTheLastOfEverySearch) {
+  const auto places = [](double x_m) {
+    return std::vector<PoseCandidate>{{{x_m, 0.0, 0.0}, 0.9, 0.6}, {{-x_m, 0.0, 0.0}, 0.8, 0.4}};
+  };
+  FakeLocalizer localizer;
+  localizer.after_start_anywhere = {
+      {Status::relocalizing, {}, 0.0, places(1.0)}, {Status::relocalizing, {}, 0.0, places(2.0)},
+      {Status::relocalizing, {}, 0.0, places(3.0)}, {Status::ok},
+      {Status::relocalizing, {}, 0.0, places(4.0)}, {Status::ok},
+      {Status::relocalizing, {}, 0.0, places(5.0)}, {Status::relocalizing, {}, 0.0, places(6.0)}};
+  const auto run = replayed(localizer, 8);
+  std::vector<double> at;
+  for (const auto& fitted : run.places) at.push_back(fitted.places.front().map_from_base.x_m);
+  EXPECT_THAT(at, testing::ElementsAre(1.0, 3.0, 4.0, 5.0, 6.0));
+  EXPECT_EQ(run.places[1].scan_index, 2U);
+  EXPECT_THAT(run.places[1].places, SizeIs(2));
+  EXPECT_THAT(run.good_scans, SizeIs(2)) << "only those at poses that are ok";
+}
+
+TEST(ReplayPlaces, KeepsFewOfALongRun) {
+  FakeLocalizer localizer;
+  localizer.after_start_anywhere.clear();
+  for (int i = 0; i < 1000; ++i)
+    localizer.after_start_anywhere.push_back({i % 2 == 0 ? Status::relocalizing : Status::ok,
+                                              {},
+                                              0.0,
+                                              std::vector<PoseCandidate>(i % 2 == 0 ? 500U : 0U)});
+  const auto run = replayed(localizer, 1000);
+  EXPECT_LE(run.places.size(), 60U);
+  EXPECT_GE(run.places.size(), 40U);
+  EXPECT_THAT(run.places.front().places, SizeIs(20));
+  EXPECT_EQ(run.places.front().place_count, 500U);
+  EXPECT_LT(run.good_scans.size(), 81U);
+}
+
+}  // namespace
+}  // namespace beaconless
