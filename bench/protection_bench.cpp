@@ -32,7 +32,8 @@ struct Tally {
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -42,8 +43,8 @@ double share_below(const std::vector<double>& values, double limit) {
 }
 
 void print(std::string_view name, const Tally& t) {
-  std::printf("%-15.*s %7d %7zu %6d %6d %9.2f %9.2f %8.1f %8.1f\n", static_cast<int>(name.size()), name.data(),
-              t.scans, t.levels_m.size(), t.beyond_m, t.beyond_rad, 1e3 * median(t.errors_m),
+  std::printf("%-15.*s %7d %7zu %6d %6d %9.2f %9.2f %8.1f %8.1f\n", static_cast<int>(name.size()),
+              name.data(), t.scans, t.levels_m.size(), t.beyond_m, t.beyond_rad, 1e3 * median(t.errors_m),
               1e3 * median(t.levels_m), share_below(t.levels_m, 0.1), share_below(t.levels_m, 0.3));
 }
 
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
   IcpScratch icp;
   const WallsConfig config;
   for (int done = 0; done < scans;) {
-    const test::Place place = test::kPlaces[static_cast<std::size_t>(done / kScansOfAWorld) % test::kPlaces.size()];
+    const test::Place place =
+        test::kPlaces[static_cast<std::size_t>(done / kScansOfAWorld) % test::kPlaces.size()];
     const test::FaultyWorld world(place, rng);
     const SurfaceMap map(std::in_place_type<WallIndex>, world.plan());
     const auto& index = std::get<WallIndex>(map);
@@ -85,11 +87,13 @@ int main(int argc, char** argv) {
         tally->beyond_m += error_m > fit.protection.position_m ? 1 : 0;
         tally->beyond_rad += error_rad > fit.protection.heading_rad ? 1 : 0;
       }
-      if (is_ok && is_telling && (error_m > fit.protection.position_m || error_rad > fit.protection.heading_rad))
-        std::printf("scan %d %s %s: %.1f of %.1f mm, %.3f of %.3f deg, on map %.2f, scale %.1f mm, pairs %d of %zu\n", done,
-                    to_string(place).data(), to_string(fault).data(), 1e3 * error_m,
-                    1e3 * fit.protection.position_m, degrees(error_rad), degrees(fit.protection.heading_rad),
-                    fit.on_map_ratio, 1e3 * fit.scale_m, fit.pair_count, scan.points.size());
+      if (is_ok && is_telling &&
+          (error_m > fit.protection.position_m || error_rad > fit.protection.heading_rad))
+        std::printf(
+            "scan %d %s %s: %.1f of %.1f mm, %.3f of %.3f deg, on map %.2f, scale %.1f mm, pairs %d of %zu\n",
+            done, to_string(place).data(), to_string(fault).data(), 1e3 * error_m,
+            1e3 * fit.protection.position_m, degrees(error_rad), degrees(fit.protection.heading_rad),
+            fit.on_map_ratio, 1e3 * fit.scale_m, fit.pair_count, scan.points.size());
     }
   }
   std::printf("%-15s %7s %7s %6s %6s %9s %9s %8s %8s\n", "", "scans", "ok", "> m", "> rad", "error_mm",

@@ -6,6 +6,7 @@
 
 #include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/match/observability.hpp"
+#include "beaconless/match/protect_walls.hpp"
 #include "beaconless/match/wall_pairs.hpp"
 
 namespace beaconless {
@@ -82,13 +83,13 @@ Eigen::Matrix3d covariance_of(const Fit& fit, const Observability& seen, const P
   return to_map * covariance * to_map.transpose();
 }
 
-/// How far the fit may be off, by what its parts say of it.
-ProtectionLevel protection_of(const Fit& fit, double map_sigma_m, const WallsConfig& config,
-                              WallsScratch& scratch, VectorLoop loop) {
-  sum_pieces(scratch.beams, fit.step, config.cut_sigma * fit.scale, loop, scratch.separation.pieces);
-  const SeparatedFit fitted{variance_factor_of(fit.sums), step_curvature_of(fit.sums), map_sigma_m,
-                            arm_of(fit.sums)};
-  return separate_walls(fitted, config.protection, scratch.separation);
+/// What the protection level is made of.
+FittedWalls fitted(const Fit& fit, const Pose2& paired_at, double map_sigma_m, const WallsConfig& config) {
+  return {paired_at,
+          fit.step,
+          config.cut_sigma * fit.scale,
+          fit.sums.weight,
+          {variance_factor_of(fit.sums), step_curvature_of(fit.sums), map_sigma_m, arm_of(fit.sums)}};
 }
 
 }  // namespace
@@ -161,7 +162,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const bool is_off = fit.scale > 1.0 + by_chance && !is_map_blamed;
     const bool is_last = (is_settled && !is_off) || round == kRounds;
     if (is_last && result.rank == 3)
-      result.protection = protection_of(fit, map_sigma_m, config, scratch, loop);
+      result.protection =
+          protect_walls(points, walls, fitted(fit, before, map_sigma_m, config), config, scratch);
     if (is_settled && !is_off) break;
     if (is_settled) {
       const double off_m = kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0);

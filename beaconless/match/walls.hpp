@@ -35,7 +35,9 @@ void describe(Fields& fields, WallsConfig& config);
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct WallsScratch {
   WallBeams beams;
-  SeparationScratch separation;
+  std::vector<WallPiece> pieces;
+  std::vector<WallPiece> lines;  ///< the pieces of each added up
+  std::vector<Eigen::Vector2d> thinned;
 };
 
 /// Fits the beams of a scan to the walls that they hit: maximum likelihood of the pose, from a guess that is

@@ -19,26 +19,26 @@ namespace beaconless::test {
 /// What is different from the map, or from what the laser is said to be.
 enum class Fault {
   none,
-  people,       ///< bursts that cover 20 to 60 % of the beams, from 2 cm to 2.5 m before what is behind
-  row,          ///< something flat stands before one wall, 2 to 30 cm, along much of it
-  moved,        ///< one piece of furniture stands 2 to 50 cm away and is turned
-  rearranged,   ///< a third of the furniture does
-  wall,         ///< one wall is drawn wrong by 1 to 5 cm
-  walls,        ///< each wall may be, one in three
-  unmapped,     ///< a third of the furniture is on no map
-  glass,        ///< two walls send nothing back
-  noise,        ///< ranges scatter by 5 to 20 mm instead of 10
-  everything,   ///< people, one thing moved, one wall wrong, one without return, another noise
+  people,      ///< bursts that cover 20 to 60 % of the beams, from 2 cm to 2.5 m before what is behind
+  row,         ///< something flat stands before one wall, 2 to 30 cm, along much of it
+  moved,       ///< one piece of furniture stands 2 to 50 cm away and is turned
+  rearranged,  ///< a third of the furniture does
+  wall,        ///< one wall is drawn wrong by 1 to 5 cm
+  walls,       ///< each wall may be, one in three
+  unmapped,    ///< a third of the furniture is on no map
+  glass,       ///< two walls send nothing back
+  noise,       ///< ranges scatter by 5 to 20 mm instead of 10
+  everything,  ///< people, one thing moved, one wall wrong, one without return, another noise
 };
 
-inline constexpr std::array kFaults{Fault::none,       Fault::people,   Fault::row,   Fault::moved,
-                                    Fault::rearranged, Fault::wall,     Fault::walls, Fault::unmapped,
-                                    Fault::glass,      Fault::noise,    Fault::everything};
+inline constexpr std::array kFaults{Fault::none,       Fault::people, Fault::row,       Fault::moved,
+                                    Fault::rearranged, Fault::wall,   Fault::walls,     Fault::unmapped,
+                                    Fault::glass,      Fault::noise,  Fault::everything};
 
 constexpr std::string_view to_string(Fault fault) {
   constexpr std::array<std::string_view, kFaults.size()> kNames{
-      "none", "people", "row", "moved", "rearranged", "wall", "walls", "unmapped", "glass", "noise",
-      "everything"};
+      "none",  "people",   "row",   "moved", "rearranged", "wall",
+      "walls", "unmapped", "glass", "noise", "everything"};
   return kNames[static_cast<std::size_t>(fault)];
 }
 
@@ -161,7 +161,9 @@ inline FaultyScan see_faulty(const FaultyWorld& map, Fault fault, Rng& rng) {
     box.at = {box.at.x_m + way_m * std::cos(to), box.at.y_m + way_m * std::sin(to),
               box.at.theta_rad + rng.normal(0.3 * way_m)};
   };
-  const auto shift = [&](double& wall) { wall += (rng.uniform() < 0.5 ? -1.0 : 1.0) * rng.uniform(0.01, 0.05); };
+  const auto shift = [&](double& wall) {
+    wall += (rng.uniform() < 0.5 ? -1.0 : 1.0) * rng.uniform(0.01, 0.05);
+  };
   if ((is_all || fault == Fault::moved) && !world.boxes.empty())
     move(world.boxes[static_cast<std::size_t>(rng.uniform() * static_cast<double>(world.boxes.size()))]);
   if (fault == Fault::rearranged)
@@ -174,9 +176,9 @@ inline FaultyScan see_faulty(const FaultyWorld& map, Fault fault, Rng& rng) {
   if (fault == Fault::unmapped) {
     const auto more = static_cast<int>(2.0 + 0.5 * static_cast<double>(world.boxes.size()));
     for (int i = 0; i < more; ++i)
-      world.boxes.push_back({{rng.uniform(0.0, world.width_m), rng.uniform(0.0, world.height_m),
-                              rng.uniform(-kPi, kPi)},
-                             {rng.uniform(0.2, 1.2), rng.uniform(0.2, 1.2)}});
+      world.boxes.push_back(
+          {{rng.uniform(0.0, world.width_m), rng.uniform(0.0, world.height_m), rng.uniform(-kPi, kPi)},
+           {rng.uniform(0.2, 1.2), rng.uniform(0.2, 1.2)}});
   }
   // 2. Where the laser is.
   FaultyScan scan;
@@ -239,7 +241,8 @@ inline FaultyScan see_faulty(const FaultyWorld& map, Fault fault, Rng& rng) {
       if (wall == first || wall == second) raw.ranges_m[i] = std::numeric_limits<float>::infinity();
     }
   }
-  for (float& range : raw.ranges_m) range = static_cast<float>(static_cast<double>(range) + rng.normal(sigma_m));
+  for (float& range : raw.ranges_m)
+    range = static_cast<float>(static_cast<double>(range) + rng.normal(sigma_m));
   scan.points = points_of(Scan::make(raw).value());
   return scan;
 }
