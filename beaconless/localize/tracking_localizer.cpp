@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "beaconless/geometry/pose_covariance.hpp"
+#include "beaconless/localize/protect.hpp"
 #include "beaconless/match/see_through.hpp"
 #include "beaconless/match/sweep_twist.hpp"
 #include "beaconless/scan/deskew.hpp"
@@ -490,6 +491,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
   estimate.jumped = !first_scan_ && is_jump(match, prediction);
+  protect(estimate, match, laser_from_base_, config_.walls.protection.risk, is_through_walls_);
   // 4. What carries over to the next scan.
   const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
   if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);

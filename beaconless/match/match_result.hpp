@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "beaconless/geometry/pose2.hpp"
+#include "beaconless/match/protection_level.hpp"
 
 namespace beaconless {
 
@@ -49,6 +50,7 @@ struct MatchResult {
   double scale_m = 0.0;       ///< the robust standard deviation of residuals that weights were made with
   double on_map_ratio = 0.0;  ///< share of the scan's points that lie on the map (see IcpConfig::on_map_m)
   double misfit = 1.0;  ///< mean squared distance to the map, in units of on_map_m and at most 1 a point
+  ProtectionLevel protection;  ///< of map_from_laser; unbounded where the method tells none
 
   bool usable() const { return status == MatchStatus::converged || status == MatchStatus::max_iterations; }
 };

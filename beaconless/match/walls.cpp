@@ -6,6 +6,7 @@
 
 #include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/match/observability.hpp"
+#include "beaconless/match/protect_walls.hpp"
 #include "beaconless/match/wall_pairs.hpp"
 
 namespace beaconless {
@@ -34,6 +35,19 @@ struct Fit {
   int iterations = 0;
 };
 
+/// What the weights add to the variance of a pose. Source: Huber 1981, 6.3.
+double variance_factor_of(const WallSums& sums) {
+  const double count = std::max(sums.weight, 1.0);
+  const double influence = (sums.squared_influence + kPriorBeams) / (count + kPriorBeams);
+  const double curvature = std::clamp(sums.curvature / count, 0.2, 1.0);
+  return influence / (curvature * curvature);
+}
+
+/// The weights fall as residuals grow, which H does not know of; their mean curvature makes up for it.
+double step_curvature_of(const WallSums& sums) {
+  return std::clamp(sums.curvature / std::max(sums.weight, 1.0), kLeastCurvature, 1.0);
+}
+
 double arm_of(const WallSums& sums) {
   return std::sqrt(sums.arm_squares_m2 / std::max(sums.weight, 1e-9)) + 1e-3;
 }
@@ -50,10 +64,7 @@ Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& confi
     next_scale = std::clamp(measured, std::max(1.0, fit.scale / kNarrowing), std::max(1.0, fit.scale));
     // 2. Step along what they determine. What a small last step would change about the sums is its square.
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
-    // The weights fall as residuals grow, which H does not know of; their mean curvature makes up for it.
-    const double curvature =
-        std::clamp(fit.sums.curvature / std::max(fit.sums.weight, 1.0), kLeastCurvature, 1.0);
-    const Eigen::Vector3d step = -seen.inverse() * fit.sums.gradient / curvature;
+    const Eigen::Vector3d step = -seen.inverse() * fit.sums.gradient / step_curvature_of(fit.sums);
     fit.step = stepped(fit.step, step);
     const bool is_still = step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad;
     if (is_still && next_scale > kSettled * fit.scale) break;
@@ -62,18 +73,23 @@ Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& confi
 }
 
 /// Of the pose that maximises the likelihood, with the variance of a range measured where it was fitted.
-/// Source: Huber 1981, 6.3, for weights that depend on the residual.
 Eigen::Matrix3d covariance_of(const Fit& fit, const Observability& seen, const Pose2& pose,
                               double map_sigma_m) {
-  const double count = std::max(fit.sums.weight, 1.0);
-  const double influence = (fit.sums.squared_influence + kPriorBeams) / (count + kPriorBeams);
-  const double curvature = std::clamp(fit.sums.curvature / count, 0.2, 1.0);
   const Eigen::Matrix3d to_map = turn_of(pose);
-  Eigen::Matrix3d covariance = influence / (curvature * curvature) * seen.inverse() + seen.unknown();
+  Eigen::Matrix3d covariance = variance_factor_of(fit.sums) * seen.inverse() + seen.unknown();
   // The map's error does not average out over the beams of a wall.
   const double arm_m = arm_of(fit.sums);
   covariance.diagonal() += map_sigma_m * map_sigma_m * Eigen::Vector3d(1.0, 1.0, 1.0 / (arm_m * arm_m));
   return to_map * covariance * to_map.transpose();
+}
+
+/// What the protection level is made of.
+FittedWalls fitted(const Fit& fit, const Pose2& paired_at, double map_sigma_m, const WallsConfig& config) {
+  return {paired_at,
+          fit.step,
+          config.cut_sigma * fit.scale,
+          fit.sums.weight,
+          {variance_factor_of(fit.sums), step_curvature_of(fit.sums), map_sigma_m, arm_of(fit.sums)}};
 }
 
 }  // namespace
@@ -98,6 +114,7 @@ void describe(Fields& fields, WallsConfig& config) {
   fields("unobservable_sigma_m", config.unobservable_sigma_m, {1e-3, 100.0},
          "a direction that the scan tells less well than this is held at the prediction");
   fields("min_pairs", config.min_pairs, {3, 100000}, "fewer beams that hit walls make no match");
+  fields.section("protection", config.protection);
 }
 
 MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex& walls, const Pose2& guess,
@@ -126,8 +143,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     const Fit fit = descend(scratch.beams, gate_m / (config.cut_sigma * noise_m), config, loop);
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
     result.map_from_laser = before * fit.step;
-    result.covariance = covariance_of(fit, seen, before,
-                                      std::hypot(believed.map_sigma_m, std::sqrt(pairing.wall_variance_m2)));
+    const double map_sigma_m = std::hypot(believed.map_sigma_m, std::sqrt(pairing.wall_variance_m2));
+    result.covariance = covariance_of(fit, seen, before, map_sigma_m);
     result.rank = 3 - seen.weak_count;
     const Eigen::Vector3d weak = seen.directions.col(0).normalized();
     result.weak_direction << before.rotation() * weak.head<2>(), weak.z();
@@ -143,6 +160,10 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     // 4. What scatters more than the laser does is the map: its walls are off across, not along the beams.
     const double by_chance = kByChance / std::sqrt(static_cast<double>(result.pair_count));
     const bool is_off = fit.scale > 1.0 + by_chance && !is_map_blamed;
+    const bool is_last = (is_settled && !is_off) || round == kRounds;
+    if (is_last && result.rank == 3)
+      result.protection =
+          protect_walls(points, walls, fitted(fit, before, map_sigma_m, config), config, scratch);
     if (is_settled && !is_off) break;
     if (is_settled) {
       const double off_m = kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0);

@@ -10,6 +10,7 @@
 #include "beaconless/map/wall_index.hpp"
 #include "beaconless/match/match_result.hpp"
 #include "beaconless/match/wall_beams.hpp"
+#include "beaconless/match/wall_separation.hpp"
 
 namespace beaconless {
 
@@ -26,6 +27,7 @@ struct WallsConfig {
   double on_map_m = 0.10;              ///< a point this near to a wall counts as explained by the map
   double unobservable_sigma_m = 0.25;  ///< a direction less certain than this is held at the guess
   int min_pairs = 12;
+  ProtectionConfig protection;
 };
 
 void describe(Fields& fields, WallsConfig& config);
@@ -33,6 +35,9 @@ void describe(Fields& fields, WallsConfig& config);
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct WallsScratch {
   WallBeams beams;
+  std::vector<WallPiece> pieces;
+  std::vector<WallPiece> lines;  ///< the pieces of each added up
+  std::vector<Eigen::Vector2d> thinned;
 };
 
 /// Fits the beams of a scan to the walls that they hit: maximum likelihood of the pose, from a guess that is
