@@ -7,7 +7,6 @@
 
 #include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/localize/protect.hpp"
-#include "beaconless/match/see_through.hpp"
 #include "beaconless/match/sweep_twist.hpp"
 #include "beaconless/scan/deskew.hpp"
 
@@ -41,7 +40,6 @@ const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagona
 
 constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
 
-constexpr std::size_t kFollowed = 120;  // beams
 constexpr double kThroughWalls_share = 0.25;
 constexpr std::string_view kThroughWalls =
     "a quarter of the beams would have to pass through walls of the map";
@@ -258,9 +256,9 @@ PoseEstimate TrackingLocalizer::track(const Scan& scan) {
     is_other = rivals_.follow(match, before.inverse() * match.map_from_laser,
                               [&](const Pose2& place) { return fit_from(place); });
   // 7. Whether beams would have to pass through walls there, which nothing in the way explains.
-  if (is_anywhere || is_through_walls_)
-    is_through_walls_ = see_through_share(points_, *map_, match.map_from_laser, points_.size() / kFollowed) >
-                        kThroughWalls_share;
+  if (is_anywhere) trust_.begin();
+  trust_.see(points_, *map_, match, config_.icp.on_map_m);
+  is_through_walls_ = trust_.through() > kThroughWalls_share;
   // 8. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
   std::string_view doubt = is_other ? std::string_view{} : reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)

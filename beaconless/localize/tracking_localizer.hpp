@@ -12,6 +12,7 @@
 #include "beaconless/localize/place_finder.hpp"
 #include "beaconless/localize/rivals.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
+#include "beaconless/localize/trust.hpp"
 #include "beaconless/map/nearness_pyramid.hpp"
 #include "beaconless/map/surface_map.hpp"
 #include "beaconless/match/map_fit.hpp"
@@ -81,6 +82,7 @@ class TrackingLocalizer final : public Localizer {
   OdometryTrack odometry_;
   Rivals rivals_;
   PlaceFinder finder_;
+  Trust trust_;
   std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
   Health health_;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/localize/trust.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <variant>
+
+#include "beaconless/match/see_through.hpp"
+
+namespace beaconless {
+namespace {
+
+constexpr std::size_t kFirstBeams = 120;
+constexpr double kMemory = 8.0;  // scans that speak
+
+double through_share(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const Pose2& pose,
+                     std::size_t first, std::size_t stride, double slack_m) {
+  const Eigen::Matrix2d rotation = pose.rotation();
+  const auto share = [&](const auto& index) {
+    double through = 0.0;
+    double all = 0.0;
+    for (std::size_t i = first; i < points.size(); i += stride, all += 1.0) {
+      const double length_m = points[i].norm();
+      const Eigen::Vector2d way = rotation * points[i] / std::max(length_m, 1e-9);
+      through += passes_through(index, pose.translation(), way, length_m, slack_m) ? 1.0 : 0.0;
+    }
+    return all > 0.0 ? through / all : 0.0;
+  };
+  return std::visit(share, map);
+}
+
+}  // namespace
+
+void Trust::begin() { seen_ = 0; }
+
+void Trust::see(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const MatchResult& match,
+                double slack_m) {
+  // 1. Other beams than the last time.
+  const std::size_t beams = seen_ == 0 ? kFirstBeams : kBeams;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / beams);
+  constexpr std::size_t kStep = 7;  // prime to most strides
+  const double through =
+      through_share(points, map, match.map_from_laser, seen_ * kStep % stride, stride, slack_m);
+  const double off = match.misfit - (1.0 - match.on_map_ratio);
+  const double blur = off / std::max(match.on_map_ratio, 0.05);
+  // 2. What they say, beside what was said of late.
+  const double follow = seen_ == 0 ? 1.0 : 1.0 / kMemory;
+  through_ += follow * (through - through_);
+  on_map_ += follow * (match.on_map_ratio - on_map_);
+  blur_ += follow * (blur - blur_);
+  ++seen_;
+}
+
+double Trust::quality() const {
+  return on_map_;
+}
+
+}  // namespace beaconless
