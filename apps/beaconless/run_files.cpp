@@ -153,12 +153,13 @@ Result<Done> make_folder(const std::string& folder) {
 
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run) {
   std::optional<Judgement> judgement;
-  if (run.reference)
-    judgement = judge(told_poses(run), *run.reference, run.map.get(),
+  if (const Trajectory told = told_poses(run); run.reference && !told.empty()) {
+    judgement = judge(told, *run.reference, run.map.get(),
                       eval::sensor_of(run.first_scan, run.config.icp.sigma_m), run.config.base_from_laser);
-  if (judgement && judgement->evaluation.errors.empty()) {
-    console.warn("no estimate has a reference at its stamp; do both use the same clock?");
-    judgement.reset();
+    if (judgement->evaluation.errors.empty()) {
+      console.warn("no estimate has a reference at its stamp; do both use the same clock?");
+      judgement.reset();
+    }
   }
   const nlohmann::json summary = summary_of(words, run, judgement);
   tell(console, run, summary, judgement);

@@ -59,12 +59,15 @@ class Values {
 
   std::string text(std::string_view key) {
     const YamlNode* node = yaml_.find(key);
-    if (node == nullptr || node->kind != YamlNode::Kind::scalar) return wrong(key, node), "";
-    return node->text;
+    if (node != nullptr && node->kind == YamlNode::Kind::scalar) return node->text;
+    wrong(key, node);
+    return "";
   }
   double number(std::string_view key) {
     const YamlNode* node = yaml_.find(key);
-    return node == nullptr ? (wrong(key, node), 0.0) : number(key, *node);
+    if (node != nullptr) return number(key, *node);
+    wrong(key, node);
+    return 0.0;
   }
   double number(std::string_view key, const YamlNode& node) {
     const auto number = node.number();

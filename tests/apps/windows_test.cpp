@@ -70,8 +70,8 @@ WindowFound found(Status status, const Pose2& pose, std::vector<PoseCandidate> c
 
 TEST(WindowOutcomes, OkIsCorrectWithinThreeDecimetresAndDegrees) {
   PosesOf reference;
-  reference.trajectory.add(Stamp::from_seconds(0.0), Pose2{1.0, 2.0, 3.1});
-  reference.trajectory.add(Stamp::from_seconds(2.0), Pose2{1.0, 2.0, 3.1});
+  reference.trajectory.add(Stamp::from_seconds(0.5), Pose2{1.0, 2.0, 3.1});
+  reference.trajectory.add(Stamp::from_seconds(1.5), Pose2{1.0, 2.0, 3.1});
   const PoseCandidate right{{1.1, 2.0, 3.1}, 0.9, 0.5};
   const PoseCandidate other{{9.0, 2.0, 3.1}, 0.9, 0.5};
   const auto windows =
