@@ -25,6 +25,7 @@ constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = radians(30.0);
 constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
 constexpr std::size_t kChecks = 240;
+constexpr std::size_t kFollowed = 180;  // points by which motion is followed without wheels
 constexpr std::size_t kMostCandidates = 16;
 constexpr double kLeastWeight = 0.01;  // of a candidate
 
@@ -103,6 +104,7 @@ PoseEstimate AmclLocalizer::update(const Event& event) {
   }
   // 1. How the robot has moved since the last scan.
   const Step step = step_to(*scan);
+  is_by_wheels_ = step.is_by_wheels;
   // 2. What the laser saw, as from where it was at the stamp.
   observe(*scan, step);
   // 3. The belief moves on, and the cloud with it where wheels do not tell the way.
@@ -112,7 +114,10 @@ PoseEstimate AmclLocalizer::update(const Event& event) {
   // 5. The whole scan polishes what the cloud tells, where that is asked for.
   const Belief belief = polished(*scan);
   // 6. Whether the scan fits there, and the cloud agrees on one place.
-  last_ = judge(belief, *scan);
+  PoseEstimate estimate = judge(belief, *scan);
+  // 7. Whether the belief has changed places, and if not, what motion follows.
+  learn_motion(belief, scan->stamp(), estimate);
+  last_ = estimate;
   last_scan_ = scan->stamp();
   return last_;
 }
@@ -161,8 +166,7 @@ void AmclLocalizer::carry(const Step& step) {
   const Eigen::Matrix3d turn = turn_of(now_.map_from_base);
   const bool is_first = !last_scan_;
   const Belief& before = is_first ? at_update_ : now_;
-  now_ = {before.map_from_base * step.motion,
-          before.covariance + turn * step.covariance * turn.transpose()};
+  now_ = {before.map_from_base * step.motion, before.covariance + turn * step.covariance * turn.transpose()};
   at_update_ = now_;
 }
 
@@ -182,7 +186,8 @@ void AmclLocalizer::weigh(const Scan& scan) {
   at_update_ = {clusters.front().mean, spread_around(clusters.front().mean, clusters)};
   now_ = at_update_;
   search_where_lost();
-  filter_.resample(hints_);
+  // What is new to the map lowers weights too; where the rest of the scan fits, nothing is put elsewhere.
+  filter_.resample(health_.lost(), hints_);
 }
 
 void AmclLocalizer::search_where_lost() {
@@ -203,13 +208,34 @@ void AmclLocalizer::search_where_lost() {
 
 AmclLocalizer::Belief AmclLocalizer::polished(const Scan& scan) {
   if (!polish_ || heaviest_ < kOnePlace || is_wide(now_.covariance)) return now_;
-  const Pose2& base_from_laser = config_.base_from_laser;
-  const Pose2 guess = now_.map_from_base * base_from_laser;
+  const Pose2 guess = now_.map_from_base * config_.base_from_laser;
   polish_->observe(scan, points_, guess,
-                   moved_covariance(now_.covariance, now_.map_from_base, base_from_laser));
-  const MatchResult match = polish_->match(guess);
-  if (!match.usable()) return now_;
-  const Pose2 laser_from_base = base_from_laser.inverse();
+                   moved_covariance(now_.covariance, now_.map_from_base, config_.base_from_laser));
+  return if_agreed(polish_->match(guess)).value_or(now_);
+}
+
+AmclLocalizer::Belief AmclLocalizer::followed(const Belief& belief) {
+  if (polish_) return belief;
+  // What a mean of particles scatters by from scan to scan hides the motion of a robot for a second or so;
+  // what a match of the scan scatters by does not.
+  if (!is_by_wheels_) {
+    choose_points();
+    const Pose2 guess = now_.map_from_base * config_.base_from_laser;
+    if (const auto matched = if_agreed(match_icp(few_points_, *map_, guess, config_.icp, icp_scratch_)))
+      return *matched;
+  }
+  return {belief.map_from_base, kRepeats * belief.covariance};
+}
+
+void AmclLocalizer::choose_points() {
+  few_points_.clear();
+  const std::size_t stride = std::max<std::size_t>(1, points_.size() / kFollowed);
+  for (std::size_t i = 0; i < points_.size(); i += stride) few_points_.push_back(points_[i]);
+}
+
+std::optional<AmclLocalizer::Belief> AmclLocalizer::if_agreed(const MatchResult& match) const {
+  if (!match.usable()) return std::nullopt;
+  const Pose2 laser_from_base = config_.base_from_laser.inverse();
   Belief belief{match.map_from_laser * laser_from_base,
                 moved_covariance(match.covariance, match.map_from_laser, laser_from_base)};
   if (match.rank < 3) belief.covariance = fused_covariance(belief.covariance, now_.covariance);
@@ -218,12 +244,14 @@ AmclLocalizer::Belief AmclLocalizer::polished(const Scan& scan) {
                             wrap_angle(belief.map_from_base.theta_rad - now_.map_from_base.theta_rad));
   const Eigen::Matrix3d expected = now_.covariance + belief.covariance + 1e-8 * Eigen::Matrix3d::Identity();
   const bool agrees = off.dot(expected.ldlt().solve(off)) < kFarFromCloud;
-  return agrees && belief.map_from_base.is_finite() && belief.covariance.allFinite() ? belief : now_;
+  if (!agrees || !belief.map_from_base.is_finite() || !belief.covariance.allFinite()) return std::nullopt;
+  return belief;
 }
 
 PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   // 1. The pose, and whether the scan fits there.
   PoseEstimate estimate;
+  estimate.reason = "";
   estimate.stamp = scan.stamp();
   estimate.map_from_base = belief.map_from_base;
   estimate.covariance = belief.covariance;
@@ -255,17 +283,20 @@ PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   else if (estimate.status != Status::ok)
     estimate.covariance += kWeakCovariance;
   estimate.covariance = symmetric(estimate.covariance);
-  // 4. Whether the belief has changed places, and what motion follows.
+  return estimate;
+}
+
+void AmclLocalizer::learn_motion(const Belief& belief, Stamp stamp, PoseEstimate& estimate) {
   const Pose2 moved = last_.map_from_base.inverse() * belief.map_from_base;
   const double slack_m = 3.0 * std::sqrt(belief.covariance.topLeftCorner<2, 2>().trace());
   estimate.jumped = last_scan_.has_value() && (std::hypot(moved.x_m, moved.y_m) > kJump_m + slack_m ||
                                                std::abs(moved.theta_rad) > kJump_rad);
-  const Eigen::Matrix3d scatter = polish_ ? belief.covariance : kRepeats * belief.covariance;
-  if (estimate.jumped || is_searching_ || health_.lost())
+  if (estimate.jumped || is_searching_ || health_.lost()) {
     motion_.start_at(belief.map_from_base);
-  else
-    motion_.correct(scan.stamp(), belief.map_from_base, symmetric(scatter));
-  return estimate;
+    return;
+  }
+  const Belief seen = followed(belief);
+  motion_.correct(stamp, seen.map_from_base, symmetric(seen.covariance));
 }
 
 std::string_view AmclLocalizer::doubt() const {
@@ -281,7 +312,8 @@ void AmclLocalizer::list_candidates() {
   if (heaviest_ >= kOnePlace && !is_searching_) return;
   double all = 0.0;
   for (const Cluster& cluster : filter_.clusters()) {
-    if (candidates_.size() == kMostCandidates || (cluster.weight < kLeastWeight && !candidates_.empty())) break;
+    if (candidates_.size() == kMostCandidates || (cluster.weight < kLeastWeight && !candidates_.empty()))
+      break;
     candidates_.push_back({cluster.mean, explained_share(cluster.mean), cluster.weight});
     all += cluster.weight;
   }

@@ -21,10 +21,10 @@ namespace beaconless {
 ///
 /// The estimate is the mean of the heaviest cluster; its covariance is that of all particles around it.
 /// Between updates wheels carry it on. Source: ParticleFilter's; ROS's amcl. Differs: without odometry the
-/// cloud moves on as the last poses did, by a MotionFilter, and every scan is an update; a scan that explains
-/// less than usual is one too; a lost robot's cloud is fed with what a search around it finds. With a
-/// matcher of walls each estimate is polished by the whole scan, as long as that agrees with the cloud, which
-/// never hears of it.
+/// cloud moves on as matches of the last scans did, by a MotionFilter, and every scan is an update; a scan
+/// that explains less than usual is one too; a lost robot's cloud is fed with what a search around it finds.
+/// With a matcher of walls each estimate is polished by the whole scan, as long as that agrees with the
+/// cloud, which never hears of it.
 class AmclLocalizer final : public Localizer {
  public:
   /// In: `polish` may be null.
@@ -58,6 +58,10 @@ class AmclLocalizer final : public Localizer {
   void weigh(const Scan& scan);
   void search_where_lost();
   Belief polished(const Scan& scan);
+  Belief followed(const Belief& belief);
+  void choose_points();
+  std::optional<Belief> if_agreed(const MatchResult& match) const;
+  void learn_motion(const Belief& belief, Stamp stamp, PoseEstimate& estimate);
   PoseEstimate judge(const Belief& belief, const Scan& scan);
   std::string_view doubt() const;
   void list_candidates();
@@ -71,11 +75,13 @@ class AmclLocalizer final : public Localizer {
   MotionFilter motion_;
   OdometryTrack odometry_;
   Health health_;
-  Belief at_update_;   // the cloud's, when it was weighed last …
-  Pose2 since_;        // … and how wheels have moved the base since
-  Belief now_;         // both together
-  double heaviest_ = 0.0;  // share of the heaviest cluster
+  Belief at_update_;                     // the cloud's, when it was weighed last …
+  Pose2 since_;                          // … and how wheels have moved the base since
+  Belief now_;                           // both together
+  double heaviest_ = 0.0;                // share of the heaviest cluster
   std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
+  std::vector<Eigen::Vector2d> few_points_;
+  IcpScratch icp_scratch_;
   LocalSearchScratch search_scratch_;
   std::vector<StartPose> starts_;
   std::vector<Pose2> hints_;
@@ -86,6 +92,7 @@ class AmclLocalizer final : public Localizer {
   bool is_started_ = false;
   bool is_searching_ = false;  // started anywhere, and not found yet
   bool is_doubtful_ = false;   // the last scan explained less than usual
+  bool is_by_wheels_ = false;  // the way to the last scan was told by wheels
   bool is_blind_ = false;      // it had no beam to weigh by
   int agreed_ = 0;             // scans in a row with the cloud in one place
   int lost_scans_ = 0;

@@ -187,8 +187,8 @@ MadeLocalizer make_tracking(const Recipe& recipe, const LocalizerConfig& config,
   const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
   auto matcher = make_matcher(recipe, config, map, surfaces);
   if (!matcher) return matcher.error();
-  return {std::unique_ptr<Localizer>(
-      std::make_unique<TrackingLocalizer>(config, surfaces, *std::move(matcher)))};
+  return {
+      std::unique_ptr<Localizer>(std::make_unique<TrackingLocalizer>(config, surfaces, *std::move(matcher)))};
 }
 
 MadeLocalizer make_amcl(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {

@@ -63,12 +63,13 @@ struct AmclConfig {
   double beam_skip_error_threshold = 0.9;
 
   // Not in ROS's amcl.
-  double laser_independent_beams = 30.0;  ///< what the beams used are worth, since errors of neighbours go along
-  double laser_field_cell = 0.05;         ///< of the likelihood field
-  double least_effective_ratio = 0.05;    ///< a scan that leaves fewer effective particles is tempered more
-  double still_sigma_m = 0.003;           ///< without odometry a cloud spreads by this from scan to scan …
-  double still_sigma_rad = 0.003;         ///< … and this at least
-  double on_map_m = 0.2;                  ///< a point this near to a wall counts as explained by the map
+  double laser_independent_beams =
+      8.0;  ///< what the beams used are worth: errors of neighbours, and of the map, go along
+  double laser_field_cell = 0.05;       ///< of the likelihood field
+  double least_effective_ratio = 0.05;  ///< a scan that leaves fewer effective particles is tempered more
+  double still_sigma_m = 0.003;         ///< without odometry a cloud spreads by this from scan to scan …
+  double still_sigma_rad = 0.003;       ///< … and this at least
+  double on_map_m = 0.2;                ///< a point this near to a wall counts as explained by the map
 };
 
 void describe(Fields& fields, AmclConfig& config);

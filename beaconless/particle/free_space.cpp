@@ -50,7 +50,8 @@ FreeSpace::FreeSpace(const Map& map) {
   const auto& plan = std::get<FloorPlan>(map);
   const FloorPlan::Bounds bounds = plan.bounds();
   const Eigen::Vector2d size = bounds.high - bounds.low;
-  cell_m_ = std::max({kPlanCell_m, std::sqrt(size.x() * size.y() / kMostCells), size.maxCoeff() / kMostCells});
+  cell_m_ =
+      std::max({kPlanCell_m, std::sqrt(size.x() * size.y() / kMostCells), size.maxCoeff() / kMostCells});
   middle_ = 0.5 * (bounds.low + bounds.high);
   radius_m_ = 0.5 * size.norm();
   auto drawn = rasterize(plan, {.resolution_m = cell_m_});
@@ -67,7 +68,8 @@ FreeSpace FreeSpace::within(const Eigen::Vector2d& middle, double radius_m) cons
   part.middle_ = middle;
   part.radius_m_ = radius_m;
   std::erase_if(part.cells_, [&](const Cell& cell) {
-    const Eigen::Vector2d at = map_from_cells_ * Eigen::Vector2d(cell_m_ * (cell.x + 0.5), cell_m_ * (cell.y + 0.5));
+    const Eigen::Vector2d at =
+        map_from_cells_ * Eigen::Vector2d(cell_m_ * (cell.x + 0.5), cell_m_ * (cell.y + 0.5));
     return (at - middle).norm() > radius_m;
   });
   return part;
@@ -84,7 +86,8 @@ Pose2 FreeSpace::sample(Rng& rng) const {
     return {middle_.x() + way_m * std::cos(angle), middle_.y() + way_m * std::sin(angle), heading};
   }
   const Cell& cell = cells_[static_cast<std::size_t>(pick * static_cast<double>(cells_.size()))];
-  const Eigen::Vector2d at = map_from_cells_ * Eigen::Vector2d(cell_m_ * (cell.x + x), cell_m_ * (cell.y + y));
+  const Eigen::Vector2d at =
+      map_from_cells_ * Eigen::Vector2d(cell_m_ * (cell.x + x), cell_m_ * (cell.y + y));
   return {at.x(), at.y(), heading};
 }
 

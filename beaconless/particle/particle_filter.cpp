@@ -53,7 +53,8 @@ void ParticleFilter::start_at(const Pose2& map_from_base, const Eigen::Matrix3d&
 void ParticleFilter::spread_over(const FreeSpace& space) {
   const auto count = static_cast<std::size_t>(config_.max_particles);
   particles_.clear();
-  for (std::size_t i = 0; i < count; ++i) particles_.add(space.sample(rng_), 1.0 / static_cast<double>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    particles_.add(space.sample(rng_), 1.0 / static_cast<double>(count));
   means_.forget();
   clusters_ = &finder_.find(particles_);
   updates_ = 0;
@@ -123,10 +124,10 @@ std::size_t ParticleFilter::wanted_count() {
                     static_cast<std::size_t>(config_.min_particles), most);
 }
 
-void ParticleFilter::resample(std::span<const Pose2> hints) {
+void ParticleFilter::resample(bool may_recover, std::span<const Pose2> hints) {
   // 1. Whether it is due.
   if (particles_.size() == 0 || updates_ < config_.resample_interval) return;
-  const double lost = means_.lost_share();
+  const double lost = may_recover ? means_.lost_share() : 0.0;
   const double effective = effective_count(particles_.weight);
   const bool is_even = effective > kFewEffective * static_cast<double>(particles_.size());
   if (config_.selective_resampling && is_even && !(lost > 0.0)) return;

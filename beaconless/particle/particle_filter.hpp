@@ -47,9 +47,9 @@ class ParticleFilter {
   /// Weighs it by a scan and sums it up. False, and nothing changes, where no beam tells anything.
   bool weigh(const Scan& scan, std::span<const Eigen::Vector2d> points);
 
-  /// Draws anew where that is due, some particles anywhere where scans fit worse than they did. In: poses
-  /// (map_from_base) that a search found, around which half of those are put; may be empty.
-  void resample(std::span<const Pose2> hints = {});
+  /// Draws anew where that is due. In: whether some particles are put anywhere where scans fit worse than
+  /// they did; poses (map_from_base) that a search found, around which half of those are put.
+  void resample(bool may_recover, std::span<const Pose2> hints = {});
 
   /// Of the cloud as it was weighed last, the heaviest first.
   const std::vector<Cluster>& clusters() const { return *clusters_; }

@@ -29,8 +29,7 @@ void PoseBins::clear(std::size_t poses) {
 int PoseBins::place(const Key& key, bool adds) {
   const std::size_t mask = table_.size() - 1;
   std::uint64_t hash = 0;
-  for (const std::int32_t part : key)
-    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9E3779B97F4A7C15U;
+  for (const std::int32_t part : key) hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9E3779B97F4A7C15U;
   for (std::size_t at = (hash >> 32U) & mask;; at = (at + 1) & mask) {
     const int bin = table_[at];
     if (bin != kNone && keys_[static_cast<std::size_t>(bin)] == key) return bin;
