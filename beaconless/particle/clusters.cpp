@@ -8,7 +8,7 @@ namespace beaconless {
 namespace {
 
 Eigen::Vector3d difference(const Pose2& pose, const Pose2& from) {
-  return {pose.x_m - from.x_m, pose.y_m - from.y_m, wrap_angle(pose.theta_rad - from.theta_rad)};
+  return {pose.x_m - from.x_m, pose.y_m - from.y_m, wrap_heading(pose.theta_rad - from.theta_rad)};
 }
 
 }  // namespace

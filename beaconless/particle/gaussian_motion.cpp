@@ -26,7 +26,7 @@ void move_by_gaussian(const Pose2& motion, const Eigen::Matrix3d& covariance, Rn
     const double s = std::sin(theta);
     particles.x_m[i] += c * ahead - s * left;
     particles.y_m[i] += s * ahead + c * left;
-    theta = wrap_angle(theta + motion.theta_rad + error.z());
+    theta = wrap_heading(theta + motion.theta_rad + error.z());
   }
 }
 

@@ -58,7 +58,7 @@ void move_by_odometry(const OdometryStep& step, Rng& rng, Particles& particles) 
     const double s = std::sin(theta + turn1);
     particles.x_m[i] += way * c - side * s;
     particles.y_m[i] += way * s + side * c;
-    theta = wrap_angle(theta + turn2 + (step.is_omni ? 0.0 : turn1));
+    theta = wrap_heading(theta + turn2 + (step.is_omni ? 0.0 : turn1));
   }
 }
 

@@ -8,6 +8,12 @@
 
 namespace beaconless {
 
+/// wrap_angle(), at once where there is nothing to wrap: its division takes longer than the rest of what is
+/// done with a particle's heading.
+inline double wrap_heading(double angle_rad) {
+  return angle_rad >= -kPi && angle_rad < kPi ? angle_rad : wrap_angle(angle_rad);
+}
+
 /// Poses of the base that may be the robot's (map_from_base), each with a weight; side by side, a list a
 /// coordinate, because loops over particles read one after the other.
 ///

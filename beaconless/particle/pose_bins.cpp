@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "beaconless/particle/particles.hpp"
+
 namespace beaconless {
 namespace {
 
@@ -16,7 +18,7 @@ PoseBins::Key PoseBins::key_of(const Pose2& pose) {
   const auto bin_of = [](double value_m) {
     return static_cast<std::int32_t>(std::floor(std::clamp(value_m / kBin_m, -kFarthest, kFarthest)));
   };
-  const double share = wrap_angle(pose.theta_rad) / (2.0 * kPi) + 0.5;
+  const double share = wrap_heading(pose.theta_rad) / (2.0 * kPi) + 0.5;
   return {bin_of(pose.x_m), bin_of(pose.y_m), std::min(static_cast<int>(share * kHeadings), kHeadings - 1)};
 }
 
