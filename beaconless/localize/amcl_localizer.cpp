@@ -62,6 +62,8 @@ void AmclLocalizer::begin() {
   last_.map_from_base = at_update_.map_from_base;
   is_started_ = true;
   is_doubtful_ = false;
+  is_blind_ = false;
+  heaviest_ = 0.0;
   agreed_ = 0;
 }
 
@@ -283,6 +285,8 @@ PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   else if (estimate.status != Status::ok)
     estimate.covariance += kWeakCovariance;
   estimate.covariance = symmetric(estimate.covariance);
+  // A cloud absurdly far away has squares that no number holds.
+  if (!estimate.covariance.allFinite()) estimate.covariance = PoseEstimate{}.covariance;
   return estimate;
 }
 
@@ -291,7 +295,7 @@ void AmclLocalizer::learn_motion(const Belief& belief, Stamp stamp, PoseEstimate
   const double slack_m = 3.0 * std::sqrt(belief.covariance.topLeftCorner<2, 2>().trace());
   estimate.jumped = last_scan_.has_value() && (std::hypot(moved.x_m, moved.y_m) > kJump_m + slack_m ||
                                                std::abs(moved.theta_rad) > kJump_rad);
-  if (estimate.jumped || is_searching_ || health_.lost()) {
+  if (estimate.jumped || is_searching_ || health_.lost() || !belief.covariance.allFinite()) {
     motion_.start_at(belief.map_from_base);
     return;
   }

@@ -33,7 +33,7 @@ struct FieldPose {
 /// A loop that the compiler turns into lanes of the target that calls it. Comparisons are such that NaN goes
 /// to the rim.
 __attribute__((always_inline)) inline std::int32_t sum_of(const FieldInput& in, const FieldPose& pose) {
-  alignas(64) std::array<std::int32_t, kBlock> places;
+  alignas(64) std::array<std::int32_t, kBlock> places;  // NOLINT(*-member-init): filled before it is read
   std::int32_t sum = 0;
   for (std::size_t first = 0; first < in.count; first += kBlock) {
     const std::size_t size = std::min(kBlock, in.count - first);
@@ -95,7 +95,7 @@ void sum_field(const Particles& particles, const Pose2& base_from_laser, const B
   const double turn_c = std::cos(base_from_laser.theta_rad);
   const double turn_s = std::sin(base_from_laser.theta_rad);
   sums.resize(particles.size());
-  std::array<FieldPose, kBlock> poses;
+  std::array<FieldPose, kBlock> poses;  // NOLINT(*-member-init): the same
   for (std::size_t first = 0; first < particles.size(); first += kBlock) {
     const std::size_t size = std::min(kBlock, particles.size() - first);
     for (std::size_t i = 0; i < size; ++i) {

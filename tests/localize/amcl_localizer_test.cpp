@@ -171,6 +171,19 @@ TEST(AmclLocalizer, AStartWithinARegionStaysThere) {
   EXPECT_TRUE(estimate.ok()) << estimate.reason;
 }
 
+TEST(AmclLocalizer, AStartBeyondAllMapsGivesFiniteNumbers) {
+  const FloorPlan plan = test::niche_room();
+  for (const char* method : {"amcl", "amcl+walls"}) {
+    Drive drive(plan, plan, method, true);
+    drive.localizer->start_at({1e300, -1e300, 1e9});
+    for (int i = 0; i < 30; ++i) {
+      const PoseEstimate estimate = drive.circle();
+      ASSERT_TRUE(estimate.map_from_base.is_finite() && estimate.covariance.allFinite()) << i;
+      ASSERT_FALSE(estimate.ok()) << i;
+    }
+  }
+}
+
 TEST(AmclLocalizer, AScanWithoutHitsIsNotOk) {
   const FloorPlan plan = test::niche_room();
   const auto localizer = make_localizer({.method = "amcl"}, plan).value();
