@@ -21,6 +21,7 @@ constexpr double kWide_rad = radians(10.0);
 constexpr int kAgreed = 5;              // scans in a row that must find a robot in one place
 constexpr double kRepeats = 0.04;       // of a cloud's variance, what its mean scatters by from scan to scan
 constexpr double kFarFromCloud = 16.0;  // squared standard deviations
+constexpr double kTypicalArm_m = 3.0;   // at which what is known across becomes a heading
 constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = radians(30.0);
 constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
@@ -186,6 +187,9 @@ void AmclLocalizer::weigh(const Scan& scan) {
   const std::vector<Cluster>& clusters = filter_.clusters();
   heaviest_ = clusters.front().weight;
   at_update_ = {clusters.front().mean, spread_around(clusters.front().mean, clusters)};
+  // However narrow the cloud is, it knows walls by the cells of its field.
+  const double cell_m2 = square(config_.amcl.laser_field_cell) / 12.0;
+  at_update_.covariance.diagonal() += Eigen::Vector3d(cell_m2, cell_m2, cell_m2 / square(kTypicalArm_m));
   now_ = at_update_;
   search_where_lost();
   // What is new to the map lowers weights too; where the rest of the scan fits, nothing is put elsewhere.

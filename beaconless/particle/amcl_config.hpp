@@ -29,7 +29,7 @@ enum class LaserModel : int {
 /// resampling is selective and may happen at every update.
 struct AmclConfig {
   int seed = 1;
-  int min_particles = 500;
+  int min_particles = 1000;
   int max_particles = 5000;
   double kld_err = 0.05;
   double kld_z = 2.326;
