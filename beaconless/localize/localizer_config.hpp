@@ -16,6 +16,7 @@
 #include "beaconless/match/icp.hpp"
 #include "beaconless/match/local_search.hpp"
 #include "beaconless/match/walls.hpp"
+#include "beaconless/particle/amcl_config.hpp"
 #include "beaconless/track/feature_tracker.hpp"
 #include "beaconless/track/motion_filter.hpp"
 #include "beaconless/track/odometry_track.hpp"
@@ -42,6 +43,7 @@ struct LocalizerConfig {
   MotionConfig motion;
   OdometryConfig odometry;
   HealthConfig health;
+  AmclConfig amcl;
 };
 
 void describe(Fields& fields, LocalizerConfig& config);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "beaconless/core/suggest.hpp"
+#include "beaconless/localize/amcl_localizer.hpp"
 #include "beaconless/localize/feature_matcher.hpp"
 #include "beaconless/localize/points_matcher.hpp"
 #include "beaconless/localize/tracking_localizer.hpp"
@@ -22,7 +23,7 @@ constexpr int kLeastPoints = 8;      // of the crosses of two keypoints
 constexpr double kDrawnArm_m = 0.4;  // longer than those of a scan, which may be off by the difference
 
 /// What the scan is fitted by.
-enum class Fitting { icp, feature_icp, hector, walls };
+enum class Fitting { icp, feature_icp, hector, walls, amcl };
 
 /// A method: what is taken from a scan, and how that is fitted to the map.
 struct Recipe {
@@ -30,6 +31,7 @@ struct Recipe {
   PointsFrom points = PointsFrom::whole_scan;  // of icp and hector
   Detector detector = Detector::falko;         // of all but whole scans
   bool is_tracked = false;                     // of feature_icp
+  bool is_polished = false;                    // of amcl, by walls
 };
 
 struct NamedRecipe {
@@ -37,8 +39,8 @@ struct NamedRecipe {
   Recipe recipe;
 };
 
-const std::array<NamedRecipe, 14>& recipes() {
-  static const std::array<NamedRecipe, 14> kAll{{
+const std::array<NamedRecipe, 16>& recipes() {
+  static const std::array<NamedRecipe, 16> kAll{{
       {{"walls", "every beam against the wall that it hits, by maximum likelihood"}, {Fitting::walls}},
       {{"icp-full", "every point of the scan against the walls of the map, by re-weighted ICP"},
        {Fitting::icp}},
@@ -63,6 +65,10 @@ const std::array<NamedRecipe, 14>& recipes() {
       {{"hector-keypoints", "keypoints of FALKO on the pyramid"}, {Fitting::hector, PointsFrom::keypoints}},
       {{"hector-regions", "the points around keypoints of FALKO on the pyramid"},
        {Fitting::hector, PointsFrom::regions}},
+      {{"amcl", "a cloud of poses that moves with the robot and is thinned out by scans, as ROS's amcl"},
+       {Fitting::amcl}},
+      {{"amcl+walls", "the same, and every beam against the wall that it hits polishes each pose"},
+       {.fitting = Fitting::amcl, .is_polished = true}},
   }};
   return kAll;
 }
@@ -166,10 +172,41 @@ Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map
       return make_hector(recipe, config, map);
     case Fitting::walls:
       return make_walls(config, surfaces);
+    case Fitting::amcl:
     case Fitting::icp:
       break;
   }
   return make_icp(recipe, config, surfaces);
+}
+
+using MadeLocalizer = Result<std::unique_ptr<Localizer>>;
+
+MadeLocalizer make_tracking(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
+  auto built = build_surface_map(recipe.fitting == Fitting::walls ? as_walls(map) : map,
+                                 config.icp.max_pair_distance_m);
+  if (!built) return built.error();
+  const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
+  auto matcher = make_matcher(recipe, config, map, surfaces);
+  if (!matcher) return matcher.error();
+  return {
+      std::unique_ptr<Localizer>(std::make_unique<TrackingLocalizer>(config, surfaces, *std::move(matcher)))};
+}
+
+MadeLocalizer make_amcl(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
+  auto built = build_surface_map(map, config.amcl.laser_likelihood_max_dist);
+  if (!built) return built.error();
+  std::unique_ptr<ScanMatcher> polish;
+  const Map walls = recipe.is_polished ? as_walls(map) : Map{};
+  // A grid that no walls can be read from is left to the cloud.
+  if (recipe.is_polished && std::holds_alternative<FloorPlan>(walls)) {
+    auto walls_built = build_surface_map(walls, config.icp.max_pair_distance_m);
+    if (!walls_built) return walls_built.error();
+    auto made = make_walls(config, std::make_shared<const SurfaceMap>(*std::move(walls_built)));
+    if (!made) return made.error();
+    polish = *std::move(made);
+  }
+  return {std::unique_ptr<Localizer>(std::make_unique<AmclLocalizer>(
+      config, map, std::make_shared<const SurfaceMap>(*std::move(built)), std::move(polish)))};
 }
 
 }  // namespace
@@ -198,6 +235,7 @@ void describe(Fields& fields, LocalizerConfig& config) {
   fields.section("motion", config.motion);
   fields.section("odometry", config.odometry);
   fields.section("health", config.health);
+  fields.section("amcl", config.amcl);
   fields.section("features", config.features);
 }
 
@@ -218,14 +256,8 @@ Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config,
   if (named == recipes().end()) return unknown_method(config.method);
   if (auto checked = check_config(config); !checked) return checked.error();
   const LocalizerConfig settled = for_map(config, map);
-  auto built = build_surface_map(named->recipe.fitting == Fitting::walls ? as_walls(map) : map,
-                                 settled.icp.max_pair_distance_m);
-  if (!built) return built.error();
-  const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
-  auto matcher = make_matcher(named->recipe, settled, map, surfaces);
-  if (!matcher) return matcher.error();
-  return std::unique_ptr<Localizer>(
-      std::make_unique<TrackingLocalizer>(settled, surfaces, *std::move(matcher)));
+  return named->recipe.fitting == Fitting::amcl ? make_amcl(named->recipe, settled, map)
+                                                : make_tracking(named->recipe, settled, map);
 }
 
 }  // namespace beaconless

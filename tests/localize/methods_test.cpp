@@ -36,7 +36,7 @@ class EachMethod : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, EachMethod, testing::ValuesIn(methods().begin(), methods().end()),
                          [](const auto& method) {
                            std::string word = method.param.name;
-                           std::replace(word.begin(), word.end(), '-', '_');
+                           for (char& letter : word) letter = letter == '-' || letter == '+' ? '_' : letter;
                            return word;
                          });
 
