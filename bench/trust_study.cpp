@@ -49,8 +49,7 @@ void run_trial(const StudyWords& words, std::size_t number, const trust::Trial& 
   const auto records = trust::follow(trial, words.method);
   if (words.verbose) trust::trace(std::cout, records);
   trust::tell(std::cout, number, trial,
-              trust::tally(records, {.is_of_here = trial.is_of_here,
-                                     .is_followed = trial.starts.size() == 1,
+              trust::tally(records, {.is_followed = trial.starts.size() == 1,
                                      .reference_m = trial.reference_m,
                                      .reference_rad = trial.reference_rad}));
 }
@@ -101,12 +100,14 @@ int main(int argc, char** argv) {
   app.add_option("--method", words.method, "Of the localizer");
   app.add_flag("--held-out", words.held_out, "Seeds from 100000 on, which nothing was tuned to");
   app.add_flag("--verbose", words.verbose, "A line a scan");
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     if (words.study == "simulations") run_simulations(words);
     if (words.study == "kidnappings") run_kidnappings(words);
     if (words.study == "recordings") run_recordings(words);
     return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
   } catch (const std::exception& error) {
     std::cerr << "trust_study: " << error.what() << "\n";
     return 3;
