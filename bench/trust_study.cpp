@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether the status of a pose deserves trust: runs in which the map is wrong, people stand in the way, the
 // robot is carried, and recordings. One line of JSON a case; tools/measure-trust makes tables of them.
+#include <algorithm>
+#include <cstdio>
 #include <iostream>
-#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -49,8 +50,7 @@ void run_trial(const StudyWords& words, std::size_t number, const trust::Trial& 
   const auto records = trust::follow(trial, words.method);
   if (words.verbose) trust::trace(std::cout, records);
   trust::tell(std::cout, number, trial,
-              trust::tally(records, {.is_of_here = trial.is_of_here,
-                                     .is_followed = trial.starts.size() == 1,
+              trust::tally(records, {.is_followed = trial.starts.size() == 1,
                                      .reference_m = trial.reference_m,
                                      .reference_rad = trial.reference_rad}));
 }
@@ -88,9 +88,7 @@ void run_kidnappings(const StudyWords& words) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   StudyWords words;
   CLI::App app{"Measures how far the status of a pose deserves trust; a line of JSON a case."};
   app.add_option("study", words.study, "What to run")
@@ -102,13 +100,19 @@ int main(int argc, char** argv) {
   app.add_flag("--held-out", words.held_out, "Seeds from 100000 on, which nothing was tuned to");
   app.add_flag("--verbose", words.verbose, "A line a scan");
   CLI11_PARSE(app, argc, argv);
+  if (words.study == "simulations") run_simulations(words);
+  if (words.study == "kidnappings") run_kidnappings(words);
+  if (words.study == "recordings") run_recordings(words);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    if (words.study == "simulations") run_simulations(words);
-    if (words.study == "kidnappings") run_kidnappings(words);
-    if (words.study == "recordings") run_recordings(words);
-    return 0;
+    return run(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "trust_study: " << error.what() << "\n";
+    std::fprintf(stderr, "trust_study: %s\n", error.what());
     return 3;
   }
 }

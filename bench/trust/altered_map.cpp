@@ -43,10 +43,15 @@ FloorPlan with_missing_walls(const FloorPlan& plan, double share, Rng& rng) {
   return left;
 }
 
-FloorPlan mirrored(FloorPlan plan) {
+FloorPlan mirrored(const Building& building) {
+  FloorPlan plan = building.plan();
+  const Pose2 map_from_drawing{0.0, 0.0, building.heading_rad};
+  for (FloorPlan::Polyline& line : plan.walls) line = carried(std::move(line), map_from_drawing.inverse());
   const double axis = middle_of(plan).x();
-  for (FloorPlan::Polyline& line : plan.walls)
+  for (FloorPlan::Polyline& line : plan.walls) {
     for (Eigen::Vector2d& point : line) point.x() = 2.0 * axis - point.x();
+    line = carried(std::move(line), map_from_drawing);
+  }
   return plan;
 }
 

@@ -97,7 +97,8 @@ Building corridor(Rng& rng) {
   for (std::size_t i = 0; i < corners.size(); ++i)
     add_side(outline, corners[i], corners[(i + 1) % corners.size()], rng);
   outline.push_back(outline.front());
-  Building building{.walls = {outline}, .furniture = {}};
+  Building building;
+  building.walls.push_back(outline);
   const int cabinets = count(rng, 0, 5);
   for (int i = 0; i < cabinets; ++i)
     building.furniture.push_back(
@@ -168,6 +169,7 @@ Building make_building(Family family, Rng& rng) {
   const Pose2 map_from_drawing{0.0, 0.0, rng.uniform() < 0.3 ? 0.0 : rng.uniform(-kPi, kPi)};
   for (auto* lines : {&building.walls, &building.furniture})
     for (FloorPlan::Polyline& line : *lines) line = carried(std::move(line), map_from_drawing);
+  building.heading_rad = map_from_drawing.theta_rad;
   return building;
 }
 

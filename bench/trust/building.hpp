@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 4> kFamilies{"room", "racks", "corridor",
 struct Building {
   std::vector<FloorPlan::Polyline> walls;  ///< the first one is closed around all
   std::vector<FloorPlan::Polyline> furniture;
+  double heading_rad = 0.0;  ///< of the drawing's x axis in the map
 
   FloorPlan plan() const;
 

@@ -26,7 +26,7 @@ double explained_share(const RayCaster& walls, const Scan& scan, const Pose2& ma
 }
 
 bool is_right(const Trial& trial, const ScanRecord& record) {
-  return trial.is_of_here && record.error_m() <= kWrong_m + trial.reference_m &&
+  return record.error_m() <= kWrong_m + trial.reference_m &&
          record.error_rad() <= kWrong_rad + trial.reference_rad;
 }
 

@@ -133,7 +133,8 @@ std::optional<bool> is_unambiguous(const Kidnapping& kidnapping, const std::stri
   const Pose2& truth = kidnapping.trial.truth[kidnapping.carried_at];
   const auto candidates = localizer->candidates();
   if (candidates.size() == 1) return is_found(candidates.front().map_from_base, truth, kidnapping.trial);
-  return candidates.empty() && estimate.ok() && is_found(estimate.map_from_base, truth, kidnapping.trial);
+  const bool is_taken = estimate.ok() || estimate.status == Status::degraded;
+  return candidates.empty() && is_taken && is_found(estimate.map_from_base, truth, kidnapping.trial);
 }
 
 }  // namespace beaconless::trust

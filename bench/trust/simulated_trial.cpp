@@ -45,7 +45,7 @@ sim::LidarConfig lidar_of(Rng& rng) {
 
 /// The map that the localizer gets.
 FloorPlan map_of(const Building& building, Kind kind, const Faults& faults, Rng& rng) {
-  if (kind == Kind::mirrored) return mirrored(building.plan());
+  if (kind == Kind::mirrored) return mirrored(building);
   FloorPlan plan =
       faults.moved ? with_moved_furniture(building, rng.uniform(0.3, 1.0), rng).plan() : building.plan();
   if (faults.missing) plan = with_missing_walls(plan, rng.uniform(0.1, 0.5), rng);

@@ -40,9 +40,10 @@ std::int64_t typical_period_ns(const std::vector<Event>& events) {
 }
 
 std::optional<Pose2> last_odometry(const std::vector<Event>& events) {
-  for (auto event = events.rbegin(); event != events.rend(); ++event)
-    if (const auto* odometry = std::get_if<Odometry>(&*event)) return odometry->odom_from_base;
-  return std::nullopt;
+  std::optional<Pose2> last;
+  for (const Event& event : events)
+    if (const auto* odometry = std::get_if<Odometry>(&event)) last = odometry->odom_from_base;
+  return last;
 }
 
 /// Moves events in time, and their odometry so that it goes on from another.

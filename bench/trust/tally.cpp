@@ -33,7 +33,7 @@ void count_level(TrustTally& tally, const ScanRecord& record, const TallyTerms& 
   ++tally.bounded;
   const bool is_within = record.error_m() <= estimate.protection_m + terms.reference_m &&
                          record.error_rad() <= estimate.protection_rad + terms.reference_rad;
-  tally.beyond += terms.is_of_here && is_within ? 0 : 1;
+  tally.beyond += is_within ? 0 : 1;
 }
 
 }  // namespace

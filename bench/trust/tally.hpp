@@ -36,7 +36,6 @@ struct TrustTally {
 
 /// What may be asked of a trial's records.
 struct TallyTerms {
-  bool is_of_here = true;    ///< else any level is too small
   bool is_followed = true;   ///< else scans have nothing to do with those before them
   double reference_m = 0.0;  ///< how far the truth itself may be off
   double reference_rad = 0.0;

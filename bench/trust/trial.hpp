@@ -26,7 +26,7 @@ struct Trial {
   std::uint64_t seed = 0;
   std::shared_ptr<const Map> map;
   std::optional<FloorPlan> walls;  ///< of the map, where it is one of walls
-  bool is_of_here = true;          ///< the map is that of the place; else no pose on it is true
+  bool is_of_here = true;          ///< the map is that of the place, as far as it is right
   Pose2 base_from_laser;
   std::optional<double> sigma_m;  ///< of a range, where the localizer is to be told
   std::vector<TrialStart> starts;

@@ -23,26 +23,26 @@ struct FreeSpace {
   const Building& building;
   WallIndex index;
 
-  bool has(const Eigen::Vector2d& point, double clearance_m) const {
+  bool has(const Eigen::Vector2d& point) const {
     if (!building.is_inside(point)) return false;
     const auto wall = index.nearest(point);
-    return !wall || wall->distance_m >= clearance_m;
+    return !wall || wall->distance_m >= kClearance_m;
   }
 
   bool joins(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
     const int steps = std::max(1, static_cast<int>((b - a).norm() / kStep_m));
     for (int i = 1; i <= steps; ++i)
-      if (!has(a + static_cast<double>(i) / steps * (b - a), kClearance_m)) return false;
+      if (!has(a + static_cast<double>(i) / steps * (b - a))) return false;
     return true;
   }
 
-  Eigen::Vector2d anywhere(double clearance_m, Rng& rng) const {
+  Eigen::Vector2d anywhere(Rng& rng) const {
     constexpr int kTries = 100'000;
     const FloorPlan::Bounds& bounds = index.bounds();
     for (int i = 0; i < kTries; ++i) {
-      const Eigen::Vector2d point(rng.uniform(bounds.low.x(), bounds.high.x()),
-                                  rng.uniform(bounds.low.y(), bounds.high.y()));
-      if (has(point, clearance_m)) return point;
+      Eigen::Vector2d point(rng.uniform(bounds.low.x(), bounds.high.x()),
+                            rng.uniform(bounds.low.y(), bounds.high.y()));
+      if (has(point)) return point;
     }
     throw BadResult({.where = "a building", .what = "has no free place", .remedy = ""});
   }
@@ -60,16 +60,12 @@ struct FreeSpace {
 
 }  // namespace
 
-Eigen::Vector2d free_place(const Building& building, double clearance_m, Rng& rng) {
-  return FreeSpace(building).anywhere(clearance_m, rng);
-}
-
 sim::Path make_way(const Building& building, double duration_s, Rng& rng) {
   const FreeSpace space(building);
   sim::Waypoints way;
   way.speed_mps = rng.uniform(0.2, 1.5);
   way.rate_degps = rng.uniform(20.0, 90.0);
-  way.points.push_back(space.anywhere(kClearance_m, rng));
+  way.points.push_back(space.anywhere(rng));
   while (way.points.size() < 2 || sim::Drive(way).duration_s() < duration_s) {
     const auto next = space.next(way.points.back(), rng);
     if (!next) break;

@@ -11,7 +11,4 @@ namespace beaconless::trust {
 /// A drive through the free space of a building that takes about so long, from a place anywhere in it.
 sim::Path make_way(const Building& building, double duration_s, Rng& rng);
 
-/// A place where nothing is nearer than `clearance_m`.
-Eigen::Vector2d free_place(const Building& building, double clearance_m, Rng& rng);
-
 }  // namespace beaconless::trust

@@ -79,7 +79,6 @@ TEST(Tally, ALevelIsBrokenWhereTheErrorIsLarger) {
   const TrustTally told = tally(records);
   EXPECT_EQ(told.bounded, 2U);
   EXPECT_EQ(told.beyond, 1U);
-  EXPECT_EQ(tally(records, {.is_of_here = false}).beyond, 2U);
   EXPECT_EQ(tally(records, {.reference_m = 0.02}).beyond, 0U);
 }
 
