@@ -11,17 +11,19 @@ namespace beaconless::bench {
 
 /// Processor time of single calls, because a robot waits for the slowest scan and not for the mean one.
 ///
-/// Not the wall clock: the calls do not wait for anything, and on a shared machine the wall clock's p99 is
-/// that of the other programs.
+/// Not the wall clock, but for calls that use several threads: the others do not wait for anything, and on a
+/// shared machine the wall clock's p99 is that of the other programs.
 class Latencies {
  public:
+  explicit Latencies(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) : clock_(clock) {}
+
   /// Calls `work()`, remembers how long it took and gives what it gave.
   template <class Work>
   auto measure(Work&& work) {
-    const double begin_us = thread_time_us();
+    const double begin_us = time_us();
     auto result = work();
     benchmark::DoNotOptimize(result);
-    taken_us_.push_back(thread_time_us() - begin_us);
+    taken_us_.push_back(time_us() - begin_us);
     return result;
   }
 
@@ -35,9 +37,9 @@ class Latencies {
   }
 
  private:
-  static double thread_time_us() {
+  double time_us() const {
     timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(clock_, &now);
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
   }
 
@@ -45,6 +47,7 @@ class Latencies {
     return taken_us_[static_cast<std::size_t>(share * static_cast<double>(taken_us_.size() - 1) + 0.5)];
   }
 
+  clockid_t clock_;
   std::vector<double> taken_us_;
 };
 

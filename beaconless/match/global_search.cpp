@@ -26,6 +26,7 @@ void describe(Fields& fields, GlobalSearchConfig& config) {
   fields("keep", config.keep, {2, 1000}, "best places that are looked at closely …");
   fields("hopeless", config.hopeless, {0.0, 1.0},
          "… whose cost is at most so much above the best, as a share of the worst cost");
+  fields("threads", config.threads, {1, 64}, "that share the work; the places are the same with any number");
 }
 
 void search_everywhere(std::span<const Eigen::Vector2d> points, const NearnessPyramid& map,
@@ -39,8 +40,11 @@ void search_everywhere(std::span<const Eigen::Vector2d> points, const NearnessPy
                             .moves_y = static_cast<int>(std::ceil(half.y())),
                             .turns = static_cast<int>(std::ceil(180.0 / config.step_deg)),
                             .step_rad = radians(config.step_deg)};
-  const LatticeWish wish{
-      .keep = config.keep, .hopeless = config.hopeless, .apart_m = kApart_m, .apart_rad = kApart_rad};
+  const LatticeWish wish{.keep = config.keep,
+                         .hopeless = config.hopeless,
+                         .apart_m = kApart_m,
+                         .apart_rad = kApart_rad,
+                         .threads = config.threads};
   search_lattice(scratch.points, map, lattice, wish, scratch.lattice, places);
 }
 

@@ -20,6 +20,7 @@ struct GlobalSearchConfig {
   int points = 120;         ///< of the scan, evenly taken
   int keep = 24;            ///< best places to return …
   double hopeless = 0.15;   ///< … whose cost is at most so much above the best
+  int threads = 1;          ///< that share the work; the places are the same bits with any number
 };
 
 void describe(Fields& fields, GlobalSearchConfig& config);

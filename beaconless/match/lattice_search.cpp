@@ -2,12 +2,14 @@
 #include "beaconless/match/lattice_search.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <tuple>
 
 #include "beaconless/geometry/angle.hpp"
 #include "beaconless/map/grid_traversal.hpp"
+#include "beaconless/match/share_work.hpp"
 #include "beaconless/match/tile_sums.hpp"
 
 namespace beaconless {
@@ -17,14 +19,16 @@ using Block = LatticeScratch::Block;
 using Pyramid = NearnessPyramid;
 
 constexpr int kTop = Pyramid::kLevels - 1;
-constexpr int kFan = Pyramid::block_cells(1);  // blocks that a block consists of, to each side
+constexpr int kFan = Pyramid::block_cells(1);        // blocks that a block consists of, to each side
+constexpr int kSide = Pyramid::kTileColumns / kFan;  // blocks side by side that are one tile of smaller ones
+constexpr int kWide = 30000;  // blocks of the top level, from which on they are too many for a heap
 static_assert(kFan <= Pyramid::kTileRows && kFan <= Pyramid::kTileColumns);
 
 /// Whether a block is to be looked at after another. Blocks come before single poses that cost the same, so
 /// that of those the first is known when it is taken.
 bool is_after(const Block& a, const Block& b) {
-  return std::tuple(a.cost, -a.level, a.heading, a.y, a.x) >
-         std::tuple(b.cost, -b.level, b.heading, b.y, b.x);
+  if (a.cost != b.cost) return a.cost > b.cost;
+  return std::tuple(-a.level, a.heading, a.y, a.x) > std::tuple(-b.level, b.heading, b.y, b.x);
 }
 
 /// One search: the lattice, and what is known of it so far.
@@ -47,28 +51,28 @@ class Search {
 
   void run(std::span<const Eigen::Vector2d> points) {
     turn(points);
-    // 1. Bounds for all of the lattice, from the middle heading outwards: what is near is likely to be good.
-    scratch_.blocks.clear();
-    for (int k = 0; k <= 2 * lattice_.turns; ++k) cover(lattice_.turns + (k % 2 == 0 ? k / 2 : -(k + 1) / 2));
-    std::erase_if(scratch_.blocks, [&](const Block& block) { return block.cost > limit(); });
-    std::make_heap(scratch_.blocks.begin(), scratch_.blocks.end(), is_after);
+    // 1. Bounds for all of the lattice.
+    bound_all();
+    auto& blocks = scratch_.blocks.front();
+    std::erase_if(blocks, [&](const Block& block) { return block.cost > limit(); });
+    std::make_heap(blocks.begin(), blocks.end(), is_after);
     // 2. The block with the lowest bound into smaller ones, until it is a pose.
-    while (!scratch_.blocks.empty()) {
-      std::pop_heap(scratch_.blocks.begin(), scratch_.blocks.end(), is_after);
-      const Block block = scratch_.blocks.back();
-      scratch_.blocks.pop_back();
+    while (!blocks.empty()) {
+      std::pop_heap(blocks.begin(), blocks.end(), is_after);
+      const Block block = blocks.back();
+      blocks.pop_back();
       if (block.cost > limit()) break;
       if (is_covered(block)) continue;
       if (block.level == 0) {
-        best_ = std::min(best_, block.cost);
+        lower_best(block.cost);
         found_.push_back({pose_of(block), static_cast<double>(block.cost) / worst_});
         if (found_.size() == static_cast<std::size_t>(wish_.keep)) break;
         continue;
       }
       split(block, [&](const Block& part) {
         if (part.cost > limit() || is_covered(part)) return;
-        scratch_.blocks.push_back(part);
-        std::push_heap(scratch_.blocks.begin(), scratch_.blocks.end(), is_after);
+        blocks.push_back(part);
+        std::push_heap(blocks.begin(), blocks.end(), is_after);
       });
     }
   }
@@ -79,18 +83,27 @@ class Search {
     return static_cast<float>(lattice_.far_penalty * worst_) / static_cast<float>(most * most);
   }
 
-  int limit() const { return best_ + hopeless_; }
+  int limit() const { return best_.load(std::memory_order_relaxed) + hopeless_; }
+
+  void lower_best(int cost) {
+    int best = best_.load(std::memory_order_relaxed);
+    while (cost < best && !best_.compare_exchange_weak(best, cost, std::memory_order_relaxed)) {
+    }
+  }
 
   /// The cells of the points at every heading, as seen from the lattice's first pose.
   void turn(std::span<const Eigen::Vector2d> points) {
+    constexpr std::size_t kApart = 8;
     constexpr double kFar = 1e8;  // cells; nothing is there, but numbers stay those of an int
     const Eigen::Vector2d first = (lattice_.middle.translation() - map_.low()) / map_.cell_m() -
                                   Eigen::Vector2d(lattice_.moves_x, lattice_.moves_y);
     scratch_.cells.clear();
     for (int heading = 0; heading <= 2 * lattice_.turns; ++heading) {
       const Eigen::Matrix2d rotation = Pose2{0.0, 0.0, theta_of(heading)}.rotation() / map_.cell_m();
-      for (const Eigen::Vector2d& point : points)
-        scratch_.cells.push_back(cell_of((first + rotation * point).cwiseMax(-kFar).cwiseMin(kFar)));
+      // Neighbours apart, so that any few of them are of the whole scan and tell soon that it does not fit.
+      for (std::size_t begin = 0; begin < kApart; ++begin)
+        for (std::size_t i = begin; i < points.size(); i += kApart)
+          scratch_.cells.push_back(cell_of((first + rotation * points[i]).cwiseMax(-kFar).cwiseMin(kFar)));
     }
   }
 
@@ -124,9 +137,9 @@ class Search {
   /// Calls visit(block) for every block of a tile that begins in the lattice.
   template <class Visit>
   void for_tile(int level, int heading, int x, int y, int columns, int rows, const Visit& visit) const {
-    const TileSums sums = sum_tiles(map_, level, cells(heading), x, y);
     const int step = Pyramid::block_cells(level);
     const int turned = turn_penalty(heading);
+    const TileSums sums = sum_tiles(map_, level, cells(heading), x, y, worst_ + turned - limit());
     for (int row = 0; row < rows && y + row * step < rows_; ++row)
       for (int column = 0; column < columns && x + column * step < columns_; ++column) {
         const int bx = x + column * step;
@@ -143,28 +156,81 @@ class Search {
     for_tile(block.level - 1, block.heading, block.x, block.y, kFan, kFan, visit);
   }
 
-  /// All blocks of a heading. The best of them is followed down to a pose, as whose cost sets a limit.
-  void cover(int heading) {
+  /// Fills the first list of blocks with all that may hold what is wanted, or their parts.
+  ///
+  /// Whatever order headings are taken in, and whoever takes them: the limit that they are held against is
+  /// never below that of the best pose there is.
+  void bound_all() {
+    scratch_.blocks.resize(static_cast<std::size_t>(std::max(1, wish_.threads)));
+    for (auto& blocks : scratch_.blocks) blocks.clear();
+    const int headings = 2 * lattice_.turns + 1;
+    const auto size = static_cast<double>(Pyramid::block_cells(kTop));
+    const bool is_wide = (columns_ / size + 1.0) * (rows_ / size + 1.0) * headings > kWide;
+    // 1. A few blocks as they are, from the middle heading outwards: what is near is likely to be good.
+    if (!is_wide) {
+      for (int k = 0; k < headings; ++k)
+        cover(outwards(k), [&](const Block& block) { scratch_.blocks.front().push_back(block); });
+      return;
+    }
+    // 2. Of many first a limit, then the parts that it leaves.
+    share_work(headings, wish_.threads, [&](int k, std::size_t) { cover(outwards(k), [](const Block&) {}); });
+    share_work(headings, wish_.threads,
+               [&](int k, std::size_t worker) { cover_by_parts(outwards(k), scratch_.blocks[worker]); });
+    for (std::size_t i = 1; i < scratch_.blocks.size(); ++i)
+      scratch_.blocks[0].insert(scratch_.blocks[0].end(), scratch_.blocks[i].begin(),
+                                scratch_.blocks[i].end());
+  }
+
+  int outwards(int k) const { return lattice_.turns + (k % 2 == 0 ? k / 2 : -(k + 1) / 2); }
+
+  /// Visits all blocks of a heading. The best of them is followed down to a pose, as whose cost sets a limit.
+  template <class Visit>
+  void cover(int heading, const Visit& visit) {
     const int step = Pyramid::block_cells(kTop);
-    Block best;
-    best.cost = best_;
-    best.level = -1;
+    Block best = none();
     for (int y = 0; y < rows_; y += Pyramid::kTileRows * step)
       for (int x = 0; x < columns_; x += Pyramid::kTileColumns * step)
         for_tile(kTop, heading, x, y, Pyramid::kTileColumns, Pyramid::kTileRows, [&](const Block& block) {
-          scratch_.blocks.push_back(block);
+          visit(block);
           if (block.cost < best.cost) best = block;
         });
+    follow(best);
+  }
+
+  /// The parts of all blocks of a heading: of several blocks side by side at once, which is a tile of parts.
+  void cover_by_parts(int heading, std::vector<Block>& parts) {
+    const int step = Pyramid::block_cells(kTop);
+    Block best = none();
+    for (int y = 0; y < rows_; y += Pyramid::kTileRows * step)
+      for (int x = 0; x < columns_; x += Pyramid::kTileColumns * step) {
+        int last = -1;  // of the tiles of parts that were taken
+        for_tile(kTop, heading, x, y, Pyramid::kTileColumns, Pyramid::kTileRows, [&](const Block& block) {
+          const int first_x = block.x - (block.x - x) % (kSide * step);
+          const int tile = (block.y - y) / step * Pyramid::kTileColumns + (first_x - x) / step;
+          if (tile == last) return;
+          last = tile;
+          for_tile(kTop - 1, heading, first_x, block.y, Pyramid::kTileColumns, kFan, [&](const Block& part) {
+            parts.push_back(part);
+            if (part.cost < best.cost) best = part;
+          });
+        });
+      }
+    follow(best);
+  }
+
+  /// A block that is as good as the best pose so far.
+  Block none() const { return {.cost = best_.load(std::memory_order_relaxed), .level = -1}; }
+
+  /// Down to a pose by the best part of the best part.
+  void follow(Block best) {
     while (best.level > 0) {
-      Block least;
-      least.cost = best_;
-      least.level = -1;
+      Block least = none();
       split(best, [&](const Block& part) {
         if (part.cost < least.cost) least = part;
       });
       best = least;
     }
-    if (best.level == 0) best_ = best.cost;
+    if (best.level == 0) lower_best(best.cost);
   }
 
   /// Whether all its poses are neighbours of one that was found.
@@ -191,7 +257,7 @@ class Search {
   int rows_;
   int worst_;  // cost of the worst fit; costs are whole numbers here
   int hopeless_;
-  int best_ = 1 << 30;  // cost of the best pose so far
+  std::atomic<int> best_{1 << 30};  // cost of the best pose so far, which what is found does not hang on
   float per_move2_;
   float per_turn2_;
 };

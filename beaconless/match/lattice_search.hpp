@@ -34,6 +34,7 @@ struct LatticeWish {
   double hopeless = 1.0;   ///< … whose cost is at most so much above the best …
   double apart_m = 0.0;    ///< … and that are this far from any better one …
   double apart_rad = 0.0;  ///< … or turned this far
+  int threads = 1;         ///< that share the work where the lattice is wide; what is found is the same
 };
 
 /// Buffers that live on from call to call, so that a search allocates nothing.
@@ -46,8 +47,8 @@ struct LatticeScratch {
     int x = 0;  ///< its first pose, in cells from the first of the lattice
     int y = 0;
   };
-  std::vector<Cell> cells;  ///< those of the points at the first pose of each heading
-  std::vector<Block> blocks;
+  std::vector<Cell> cells;                 ///< those of the points at the first pose of each heading
+  std::vector<std::vector<Block>> blocks;  ///< of each thread
 };
 
 /// The poses of a lattice at which points fall nearest to the map's surfaces: the best, the best of those

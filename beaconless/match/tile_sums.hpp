@@ -24,8 +24,10 @@ struct TileSums {
   }
 };
 
-/// Adds up the tiles that begin `x`, `y` cells from each of at most kMostCells cells. Cost: some thirty
+/// Adds up the tiles that begin `x`, `y` cells from each of at most kMostCells cells. Nothing is wanted below
+/// `least`: all sums are 0 where it is clear from some of the cells that none reaches that. Cost: some thirty
 /// instructions a cell, on any processor.
-TileSums sum_tiles(const NearnessPyramid& map, int level, std::span<const Cell> cells, int x, int y);
+TileSums sum_tiles(const NearnessPyramid& map, int level, std::span<const Cell> cells, int x, int y,
+                   int least = 0);
 
 }  // namespace beaconless
