@@ -49,7 +49,7 @@ struct PoseEstimate {
   Eigen::Matrix3d covariance = Eigen::Vector3d(1e6, 1e6, 10.0).asDiagonal();
   Status status = Status::not_started;
   std::string_view reason = "no start pose was given";  ///< why the status is not ok; static text, "" when ok
-  double quality = 0.0;  ///< 0 … 1: how far the pose deserves trust; a pose that is ok at 0.5 or more does
+  double quality = 0.0;  ///< 0 … 1: how far the pose deserves trust; one that is ok at 0.5 or more does
 
   /// Protection level: the true pose is within these but for one scan in ten thousand. At most kUnbounded and
   /// pi, which say that nothing bounds the error.

@@ -264,7 +264,7 @@ PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   const double explained = explained_share(belief.map_from_base);
   is_doubtful_ = health_.is_doubtful(explained);
   const bool was_lost = health_.lost();
-  estimate.status = health_.judge(explained);
+  estimate.status = health_.judge(scan.stamp(), explained);
   estimate.quality = explained * heaviest_;
   if (estimate.status == Status::lost)
     estimate.reason = "the scan does not fit the map here";

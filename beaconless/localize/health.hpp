@@ -14,7 +14,8 @@ struct HealthConfig {
   double weak_ratio = 0.35;   ///< a fit that explains less of the scan than this is weak in any case
   double found_ratio = 0.5;   ///< a robot is found, at the start or again, by a fit that explains this much
   double lost_ratio = 0.25;   ///< a fit that explains less than this is no fit
-  int lost_after_scans = 8;   ///< so many weak fits in a row, and the robot is lost
+  int lost_after_scans = 8;   ///< so many weak fits in a row, and the robot is lost …
+  double lost_after_s = 0.6;  ///< … or such a time of them, three or more
   int found_after_scans = 5;  ///< a lost robot is found when so many fits in a row agree
   double forget = 0.05;       ///< how fast "usual" follows the scans
 };
@@ -39,7 +40,7 @@ class Health {
   bool is_weak(double on_map_ratio) const;
 
   /// Takes in the scan's final fit; gives ok, degraded or lost.
-  Status judge(double on_map_ratio);
+  Status judge(Stamp stamp, double on_map_ratio);
 
   /// True after a good fit, until lost: then a fit need not convince by itself.
   bool at_home() const { return usual_ratio_ > 0.0 && !lost(); }
@@ -53,6 +54,7 @@ class Health {
   HealthConfig config_;
   double usual_ratio_ = 0.0;
   int weak_in_a_row_ = 0;
+  Stamp weak_since_;
   int good_in_a_row_ = 0;
   bool lost_ = false;
 };

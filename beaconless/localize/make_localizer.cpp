@@ -18,9 +18,10 @@
 namespace beaconless {
 namespace {
 
-constexpr int kThinWall_cells = 4;   // a wall of a grid that has more of them has two sides
-constexpr int kLeastPoints = 8;      // of the crosses of two keypoints
-constexpr double kDrawnArm_m = 0.4;  // longer than those of a scan, which may be off by the difference
+constexpr int kThinWall_cells = 4;     // a wall of a grid that has more of them has two sides
+constexpr double kPlanSigma_m = 0.03;  // by how much walls that were measured may be off
+constexpr int kLeastPoints = 8;        // of the crosses of two keypoints
+constexpr double kDrawnArm_m = 0.4;    // longer than those of a scan, which may be off by the difference
 
 /// What the scan is fitted by.
 enum class Fitting { icp, feature_icp, hector, walls, amcl };
@@ -85,7 +86,11 @@ Error unknown_method(const std::string& name) {
 /// What a map's kind settles where the user has not.
 LocalizerConfig for_map(LocalizerConfig config, const Map& map) {
   const auto* grid = std::get_if<OccupancyGrid>(&map);
-  if (grid == nullptr) return config;
+  const bool is_sigma_chosen = config.places.sigma_m != PlacesConfig{}.sigma_m;
+  if (grid == nullptr) {
+    if (!is_sigma_chosen) config.places.sigma_m = kPlanSigma_m;
+    return config;
+  }
   // A wall drawn into cells is off by up to half a cell.
   if (config.icp.map_sigma_m == 0.0) config.icp.map_sigma_m = grid->resolution_m / std::sqrt(12.0);
   config.places.sigma_m = std::max(config.places.sigma_m, grid->resolution_m);

@@ -188,7 +188,7 @@ void PlaceFinder::sort_out() {
 
 double PlaceFinder::needed_margin() const {
   const double coarse = std::pow(std::max(1.0, config_.sigma_m / kFine_m), kCoarse);
-  return coarse * config_.margin + config_.doubt * (1.0 - places_.front().now.on_map);
+  return coarse * (config_.margin + config_.doubt * (1.0 - places_.front().now.on_map));
 }
 
 PlaceFinder::Verdict PlaceFinder::verdict() const {

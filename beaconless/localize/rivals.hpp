@@ -25,22 +25,25 @@ class Rivals {
   void look(const MatchResult& taken);
 
   /// Fits the next scan where each rival has moved to with the robot (`moved`, the pose taken last as seen
-  /// from which is the one taken now); those that fit no more are dropped. True where one has come to fit
-  /// better and is `taken` now.
+  /// from which is the one taken now); those that have fitted no more for some scans in a row are dropped.
+  /// True where one has come to fit better and is `taken` now.
   template <class Fit>
   bool follow(MatchResult& taken, const Pose2& moved, const Fit& fit) {
     forget_notes();
     bool is_other = false;
-    for (const Pose2& before : places_) {
-      MatchResult rival = fit(before * moved);
-      if (!rival.usable() || !is_elsewhere(rival.map_from_laser, taken.map_from_laser)) continue;
-      if (!is_as_good(taken, rival)) {
+    for (Place& place : places_) {
+      place.map_from_laser = place.map_from_laser * moved;
+      MatchResult rival = fit(place.map_from_laser);
+      const bool is_place = rival.usable() && is_elsewhere(rival.map_from_laser, taken.map_from_laser);
+      if (is_place && !is_as_good(taken, rival)) {
         std::swap(rival, taken);
         is_other = true;
       }
-      note(rival);
+      const bool is_rival = is_place && is_as_good(rival, taken);
+      place.worse_scans = is_rival ? 0 : place.worse_scans + 1;
+      if (is_rival) place.map_from_laser = rival.map_from_laser;
     }
-    look(taken);
+    drop_known(taken.map_from_laser);
     return is_other;
   }
 
@@ -50,11 +53,17 @@ class Rivals {
   Eigen::Matrix3d covariance(const Pose2& map_from_base, const Pose2& laser_from_base) const;
 
  private:
+  struct Place {
+    Pose2 map_from_laser;
+    int worse_scans = 0;  ///< in a row
+  };
+
+  void drop_known(const Pose2& taken);
   static bool is_elsewhere(const Pose2& a, const Pose2& b);
   static bool is_as_good(const MatchResult& a, const MatchResult& b);
 
   std::vector<MatchResult> tried_;
-  std::vector<Pose2> places_;
+  std::vector<Place> places_;
 };
 
 }  // namespace beaconless

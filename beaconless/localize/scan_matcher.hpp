@@ -28,6 +28,9 @@ class ScanMatcher {
   /// Whether `on_map_ratio` and `misfit` of its results tell about the whole scan.
   virtual bool judges_whole_scan() const { return false; }
 
+  /// Whether its results tell a protection level.
+  virtual bool tells_protection() const { return false; }
+
   /// Why a fit, good as it is, is not to be called ok; "" where nothing speaks against it. Static text.
   virtual std::string_view reservation(const MatchResult& /*taken*/) const { return {}; }
 

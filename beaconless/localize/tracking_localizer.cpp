@@ -19,6 +19,13 @@ constexpr double kJumpSigma =
     3.0;  // of the prediction; a larger correction is a jump, if also larger than the next two
 constexpr double kJump_m = 0.25;
 constexpr double kJump_rad = radians(8.0);
+// What no motion explains is announced, and others must agree before it is called ok.
+constexpr double kSurprise_sigma = 4.0;
+constexpr double kSurprise_m = 0.06;
+constexpr double kSurprise_rad = radians(2.0);
+constexpr int kSurprised = 5;     // scans
+constexpr double kStart_m = 1.8;  // what a start pose may be off …
+constexpr double kStart_rad = radians(60.0);
 constexpr double kCovered_m = 0.5;      // where fewer beams than the next share reach further than this …
 constexpr double kCoveredShare = 0.05;  // … anything fits anywhere
 constexpr double kLostWindow = 2.5;     // how much wider a lost robot searches
@@ -40,9 +47,11 @@ const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagona
 
 constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
 
-constexpr double kThroughWalls_share = 0.25;
-constexpr std::string_view kThroughWalls =
-    "a quarter of the beams would have to pass through walls of the map";
+constexpr std::string_view kSurprising = "the pose has just jumped; more scans must agree";
+constexpr std::string_view kFarFromStart = "the scan fits only far from the start pose";
+constexpr double kThroughWalls_share = 0.15;
+constexpr double kUncorrected = 0.4;  // most quality of a pose that no fit has corrected
+constexpr std::string_view kThroughWalls = "many beams would have to pass through walls of the map";
 
 constexpr std::string_view kOpenDirection =
     "the walls in view leave a direction open, which is held at the prediction";
@@ -104,6 +113,8 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   started_ = true;
   is_anywhere_ = false;
   is_new_place_ = false;
+  surprised_scans_ = 0;
+  way_.begin();
   first_scan_ = true;
 }
 
@@ -142,7 +153,9 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   last_.jumped = last_.jumped || is_found;
   is_new_place_ = false;
   // 3. One that is no longer there may be anywhere.
-  if (config_.relocalize && health_.lost() && health_.is_weak(last_.quality) && !is_covered_)
+  const bool is_adrift = health_.lost() && health_.is_weak(explained_) && !is_covered_;
+  const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_);
+  if (config_.relocalize && (is_adrift || has_parted))
     search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
   return last_;
 }
@@ -257,7 +270,7 @@ PoseEstimate TrackingLocalizer::track(const Scan& scan) {
                               [&](const Pose2& place) { return fit_from(place); });
   // 7. Whether beams would have to pass through walls there, which nothing in the way explains.
   if (is_anywhere) trust_.begin();
-  trust_.see(points_, *map_, match, config_.icp.on_map_m);
+  trust_.see(points_, *map_, match, config_.places.sigma_m);
   is_through_walls_ = trust_.through() > kThroughWalls_share;
   // 8. Take the fit as the pose, or what the whole scan told, or go on by the motion alone.
   std::string_view doubt = is_other ? std::string_view{} : reason_against(match, prediction);
@@ -289,6 +302,7 @@ std::string_view TrackingLocalizer::reason_to_coast(const MatchResult& match,
   if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
     return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
                                           : "the scan fits nowhere around the last trusted pose";
+  if (first_scan_ && is_far(match, prediction)) return kFarFromStart;
   if (first_scan_ || health_.lost()) return {};
   if (is_jump(match, prediction)) return "the scan fits nowhere near the predicted pose";
   return {};
@@ -406,6 +420,19 @@ bool TrackingLocalizer::is_jump(const MatchResult& match, const Prediction& pred
          std::abs(correction.theta_rad) > std::max(kJump_rad, slack_rad);
 }
 
+bool TrackingLocalizer::is_far(const MatchResult& match, const Prediction& prediction) const {
+  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
+  return correction.translation().norm() > kStart_m || std::abs(correction.theta_rad) > kStart_rad;
+}
+
+bool TrackingLocalizer::is_surprise(const MatchResult& match, const Prediction& prediction) const {
+  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
+  const double slack_m = kSurprise_sigma * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+  const double slack_rad = kSurprise_sigma * std::sqrt(prediction.covariance(2, 2));
+  return correction.translation().norm() > std::max(kSurprise_m, slack_m) ||
+         std::abs(correction.theta_rad) > std::max(kSurprise_rad, slack_rad);
+}
+
 std::span<const StartPose> TrackingLocalizer::starts_around(const Prediction& prediction) {
   LocalSearchConfig window = config_.search;
   if (health_.lost()) {
@@ -465,18 +492,26 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   estimate.stamp = scan.stamp();
   estimate.map_from_base = match.map_from_laser * laser_from_base_;
   estimate.covariance = moved_covariance(match.covariance, match.map_from_laser, laser_from_base_);
-  estimate.quality = match.on_map_ratio;
+  explained_ = match.on_map_ratio;
   // 2. Whether the map agrees. Found again means that the place holds from scan to scan.
   const bool was_lost = health_.lost();
   if (was_lost && is_jump(match, prediction)) health_.forget_found();
-  estimate.status = health_.judge(match.on_map_ratio);
+  estimate.status = health_.judge(scan.stamp(), match.on_map_ratio);
   estimate.reason = reason_of(estimate.status, was_lost);
   const bool is_lost = was_lost || estimate.status == Status::lost;
   if (estimate.status != Status::ok) estimate.covariance += is_lost ? kLostCovariance : kWeakCovariance;
   const Eigen::Matrix3d swept = sweep_covariance(estimate, prediction, scan);
   // 3. What rests on the prediction, wholly or along some direction, is degraded and tells no velocity.
   const bool is_open = match.rank < 3;
-  const std::string_view caveat = is_open ? kOpenDirection : reservation;
+  if (!first_scan_ && is_surprise(match, prediction)) {
+    estimate.jumped = true;
+    surprised_scans_ = kSurprised;
+  } else if (surprised_scans_ > 0) {
+    --surprised_scans_;
+  }
+  const std::string_view caveat = is_open                                       ? kOpenDirection
+                                  : surprised_scans_ > 0 && reservation.empty() ? kSurprising
+                                                                                : reservation;
   if (is_open) estimate.covariance = fused_covariance(estimate.covariance, prediction.covariance);
   if (estimate.status == Status::ok && !caveat.empty()) {
     estimate.status = Status::degraded;
@@ -488,13 +523,14 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
       symmetric(estimate.covariance + swept + rivals_.covariance(estimate.map_from_base, laser_from_base_));
   if (!estimate.map_from_base.is_finite() || !estimate.covariance.allFinite())
     return coast(prediction, scan.stamp(), "the fit gave no finite pose");
-  estimate.jumped = !first_scan_ && is_jump(match, prediction);
   protect(estimate, match, laser_from_base_, config_.walls.protection.risk, is_through_walls_);
+  estimate.quality =
+      trust_.quality(matcher_->tells_protection() ? std::optional(estimate.protection_m) : std::nullopt);
   // 4. What carries over to the next scan.
   const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
   if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);
   // Wherever the robot is, one of two like places tells how it moves as well as the other.
-  const bool is_of_place = caveat == kRivalled || caveat == kThroughWalls;
+  const bool is_of_place = caveat == kRivalled || caveat == kThroughWalls || caveat == kSurprising;
   if (caveat.empty() || (!is_open && is_of_place && !is_jump(match, prediction)))
     motion_.correct(scan.stamp(), estimate.map_from_base, compared);
   else
@@ -521,8 +557,10 @@ PoseEstimate TrackingLocalizer::coast(const Prediction& prediction, Stamp stamp,
   estimate.covariance = prediction.covariance;
   // A pose that nothing corrects is never ok; it is not lost as long as the scan lies on the map there.
   // What is usual is not learnt from it: it may drift away little by little.
-  estimate.quality = health_.lost() || is_covered_ ? 0.0 : fit_at(prediction).on_map_ratio;
-  if (health_.is_weak(estimate.quality)) health_.judge(estimate.quality);
+  const double explained = health_.lost() || is_covered_ ? 0.0 : fit_at(prediction).on_map_ratio;
+  explained_ = explained;
+  estimate.quality = kUncorrected * explained;
+  if (health_.is_weak(explained)) health_.judge(stamp, explained);
   if (health_.lost()) estimate.covariance += kLostCovariance;
   estimate.covariance = symmetric(estimate.covariance);
   estimate.status = health_.lost() ? Status::lost : Status::degraded;

@@ -17,6 +17,7 @@
 #include "beaconless/map/surface_map.hpp"
 #include "beaconless/match/map_fit.hpp"
 #include "beaconless/track/odometry_track.hpp"
+#include "beaconless/track/way_check.hpp"
 
 namespace beaconless {
 
@@ -59,6 +60,8 @@ class TrackingLocalizer final : public Localizer {
   MatchResult fit_from(const Pose2& guess);
   MapFit fit_at(const Prediction& prediction) const;
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
+  bool is_surprise(const MatchResult& match, const Prediction& prediction) const;
+  bool is_far(const MatchResult& match, const Prediction& prediction) const;
   bool is_worth_searching(const MatchResult& match, const Prediction& prediction);
   std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
   std::string_view reason_against_features(const MatchResult& match, const Prediction& prediction) const;
@@ -80,6 +83,7 @@ class TrackingLocalizer final : public Localizer {
   Pose2 laser_from_base_;
   MotionFilter motion_;
   OdometryTrack odometry_;
+  WayCheck way_;
   Rivals rivals_;
   PlaceFinder finder_;
   Trust trust_;
@@ -93,6 +97,8 @@ class TrackingLocalizer final : public Localizer {
   std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
   std::vector<double> times_s_;          // of the points, after the stamp
   PoseEstimate last_;
+  double explained_ = 0.0;   // share of the last scan
+  int surprised_scans_ = 0;  // that are still to agree after a jump
   bool started_ = false;
   bool is_anywhere_ = false;   // nothing is believed of the pose
   bool is_new_place_ = false;  // it was found elsewhere than where it was thought to be

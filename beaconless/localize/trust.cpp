@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <variant>
 
 #include "beaconless/match/see_through.hpp"
@@ -13,7 +11,17 @@ namespace beaconless {
 namespace {
 
 constexpr std::size_t kFirstBeams = 120;
-constexpr double kMemory = 8.0;  // scans that speak
+constexpr double kMemory = 8.0;           // scans that speak
+constexpr double kLeastExplained = 0.05;  // share of the scan of which a blur can be told
+
+// What speaks against a pose, in units of doubt, and how much doubt is too much.
+constexpr double kOfThrough = 18.0;
+constexpr double kOfBlur = 20.0;
+constexpr double kOfLevel = 2.8;  // of a level of this and more:
+constexpr double kLoose_m = 0.6;
+constexpr double kUntold = 0.5;  // of a method that tells no level
+constexpr double kTooMuch = 1.0;
+constexpr double kSteep = 4.0;
 
 double through_share(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const Pose2& pose,
                      std::size_t first, std::size_t stride, double slack_m) {
@@ -44,17 +52,18 @@ void Trust::see(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, 
   const double through =
       through_share(points, map, match.map_from_laser, seen_ * kStep % stride, stride, slack_m);
   const double off = match.misfit - (1.0 - match.on_map_ratio);
-  const double blur = off / std::max(match.on_map_ratio, 0.05);
+  const double blur = off / std::max(match.on_map_ratio, kLeastExplained);
   // 2. What they say, beside what was said of late.
   const double follow = seen_ == 0 ? 1.0 : 1.0 / kMemory;
   through_ += follow * (through - through_);
-  on_map_ += follow * (match.on_map_ratio - on_map_);
   blur_ += follow * (blur - blur_);
   ++seen_;
 }
 
-double Trust::quality() const {
-  return on_map_;
+double Trust::quality(std::optional<double> protection_m) const {
+  const double loose = protection_m ? kOfLevel * std::min(1.0, *protection_m / kLoose_m) : kUntold;
+  const double doubt = kOfThrough * through_ + kOfBlur * blur_ + loose;
+  return 1.0 / (1.0 + std::exp(kSteep * (doubt - kTooMuch)));
 }
 
 }  // namespace beaconless

@@ -22,6 +22,7 @@ class WallsMatcher final : public ScanMatcher {
                const Eigen::Matrix3d& covariance) override;
   MatchResult match(const Pose2& guess) override;
   bool judges_whole_scan() const override { return true; }
+  bool tells_protection() const override { return true; }
   std::string_view too_few_pairs() const override { return "too few beams end near a wall of the map"; }
 
  private:

@@ -30,7 +30,7 @@ ScanEvidence weigh(std::span<const Eigen::Vector2d> points, const Index& map, co
     const auto surface = map.nearest(origin + end);
     const double distance_m = surface ? surface->distance_m : map.reach_m();
     const bool is_on = distance_m < on_map_m;
-    if (passes_through(map, origin, Eigen::Vector2d(end / std::max(length_m, 1e-9)), length_m, on_map_m)) {
+    if (passes_through(map, origin, Eigen::Vector2d(end / std::max(length_m, 1e-9)), length_m, sigma_m)) {
       sum.through += 1.0;
       sum.log_likelihood += std::log(is_on ? kThroughOntoAnother : kThrough);
       continue;

@@ -21,7 +21,7 @@ template <SurfaceIndex Index>
 bool passes_through(const Index& map, const Eigen::Vector2d& from, const Eigen::Vector2d& way,
                     double length_m, double slack_m) {
   constexpr double kThrough_m = 0.015;  // nearer than this to a surface a beam meets it …
-  constexpr double kBefore_m = 0.3;     // … if it ends this far behind: no noise, and no wall that is off
+  constexpr double kBefore_m = 0.12;    // … if it ends this far behind: no noise, and no wall that is off
   constexpr double kStart_m = 0.1;      // from the laser
   const double end_m = length_m - std::max(kBefore_m, 4.0 * slack_m);
   const auto is_met = [&](const Eigen::Vector2d& origin) {

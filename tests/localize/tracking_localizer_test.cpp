@@ -185,8 +185,11 @@ TEST(TrackingLocalizer, AStartInTheWrongPlaceIsNotBelievedAndTheRightOneFound) {
     const PoseEstimate estimate =
         localizer->update(Scan::make(test::sweep(walls, truth, 0.01, rng, {25'000'000L * i})).value());
     ASSERT_EQ(estimate.ok(), i >= 12) << i << ": " << estimate.reason;
-    if (estimate.ok()) ASSERT_LT(distance_m(estimate.map_from_base, truth), 0.005);
-    if (!estimate.ok()) ASSERT_GT(estimate.covariance(0, 0), 0.2 * 0.2) << i;
+    if (estimate.ok()) {
+      ASSERT_LT(distance_m(estimate.map_from_base, truth), 0.005);
+    } else {
+      ASSERT_GT(estimate.covariance(0, 0), 0.2 * 0.2) << i;
+    }
   }
 }
 
