@@ -18,9 +18,10 @@ constexpr double kNear_m = 0.1;  // how far ICP may be from where the walls are
 constexpr double kHeld_m = 0.3;  // a place less certain than this is not held
 constexpr double kBehind = 1.0;  // a place so far behind the best is given up
 constexpr double kMostThrough = 0.25;
-constexpr double kFine_m = 0.05;          // the margin is for maps that are off by this
-constexpr double kCoarse = 1.5;           // … and grows with so many powers of what others are off by more
-constexpr double kBeamsThatCount = 20.0;  // of a scan, the others say what these do
+constexpr double kFine_m = 0.05;           // the margin is for maps that are off by this
+constexpr std::size_t kViewsOfCoarse = 3;  // that it takes on others
+constexpr double kCoarse = 1.5;            // … and grows with so many powers of what others are off by more
+constexpr double kBeamsThatCount = 20.0;   // of a scan, the others say what these do
 
 bool is_same(const Pose2& a, const Pose2& b) {
   return distance_m(a, b) < kSame_m && heading_difference_rad(a, b) < kSame_rad;
@@ -200,7 +201,9 @@ PlaceFinder::Verdict PlaceFinder::verdict() const {
     return Verdict::nothing;
   const bool is_held = best.rank == 3 && best.covariance.topLeftCorner<2, 2>().trace() < kHeld_m * kHeld_m;
   const bool is_ahead = places_.size() == 1 || places_[1].total < best.total - needed_margin();
-  return is_held && is_ahead ? Verdict::one : Verdict::several;
+  // On a coarse map one look never suffices: some place fits it by chance.
+  const bool is_seen_enough = config_.sigma_m <= kFine_m || views_.size() >= kViewsOfCoarse;
+  return is_held && is_ahead && is_seen_enough ? Verdict::one : Verdict::several;
 }
 
 std::span<const PlaceFinder::Place> PlaceFinder::likely() const {

@@ -23,7 +23,7 @@ namespace beaconless {
 struct PlacesConfig {
   GlobalSearchConfig search;
   double sigma_m = 0.05;  ///< by how much surfaces of the map may be off; no less than a grid's cells
-  double margin = 0.07;   ///< log-likelihood of a beam, added up over views, that a place must be ahead …
+  double margin = 0.05;   ///< log-likelihood of a beam, added up over views, that a place must be ahead …
   double doubt = 1.0;     ///< … and more by so many times the share of the scan that is not on the map
   double least_explained = 0.5;    ///< share of the scan that must lie on the map there
   double least_likelihood = -1.0;  ///< mean log-likelihood of a beam that a place must reach

@@ -49,7 +49,7 @@ constexpr std::string_view kRivalled = "another place nearby fits the scan nearl
 
 constexpr std::string_view kSurprising = "the pose has just jumped; more scans must agree";
 constexpr std::string_view kFarFromStart = "the scan fits only far from the start pose";
-constexpr double kThroughWalls_share = 0.15;
+constexpr double kThroughWalls_share = 0.2;
 constexpr double kUncorrected = 0.4;  // most quality of a pose that no fit has corrected
 constexpr std::string_view kThroughWalls = "many beams would have to pass through walls of the map";
 
