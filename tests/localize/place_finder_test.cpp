@@ -125,6 +125,27 @@ TEST(PlaceFinder, ADriveAroundACornerTellsTwoRoomsApart) {
 }
 
 TEST(PlaceFinder, APlaceThatComesUpLateIsJudgedByWhatWasSeenBefore) {
+  // From a hall of its own into one of two like rooms, with one step that the wheels tell.
+  FloorPlan plan;
+  const auto add = [&plan](const FloorPlan& room, const Eigen::Vector2d& at) {
+    for (FloorPlan::Polyline wall : room.walls) {
+      for (Eigen::Vector2d& corner : wall) corner += at;
+      plan.walls.push_back(wall);
+    }
+  };
+  add(test::niche_room(), {0.0, 0.0});
+  add(test::niche_room(), {12.0, 0.0});
+  add(test::l_room(), {12.0, 10.0});
+  const Pose2 there{14.0, 1.5, 0.4};
+  Search late(plan);
+  EXPECT_EQ(late.see_from(there), Verdict::several);
+  Search search(plan);
+  ASSERT_EQ(search.see_from({14.0, 12.0, 0.3}), Verdict::one);
+  EXPECT_EQ(search.see_from(there), Verdict::one);
+  EXPECT_TRUE(search.is_among_likely(there));
+}
+
+TEST(PlaceFinder, WhatWasToldOnceStaysToldWhereRoomsAreAlike) {
   Search search(two_bent_rooms());
   // From the far end, which tells, to where both rooms look the same.
   ASSERT_EQ(search.see_from({16.5, 6.0, 0.0}), Verdict::one);
@@ -136,6 +157,13 @@ TEST(PlaceFinder, APlaceThatComesUpLateIsJudgedByWhatWasSeenBefore) {
 TEST(PlaceFinder, ALongBareCorridorIsMoreThanOnePlace) {
   Search search(FloorPlan{{{{0, 0}, {200, 0}}, {{0, 2.5}, {200, 2.5}}}});
   for (int i = 0; i < 10; ++i) EXPECT_EQ(search.see_from({100.0 + 0.2 * i, 1.2, 0.1}), Verdict::several);
+}
+
+TEST(PlaceFinder, AnOnlyPlaceThatIsNotHeldAlongItsWallIsNotOneEither) {
+  Search search(FloorPlan{{{{0, 0}, {200, 0}}}});
+  search.finder.begin({{99.9, 1.0}, {100.1, 1.4}});
+  EXPECT_EQ(search.see_from({100.0, 1.2, 0.1}), Verdict::several);
+  EXPECT_EQ(search.finder.likely().size(), 1U);
 }
 
 TEST(PlaceFinder, AScanOfAnotherBuildingFitsNowhere) {

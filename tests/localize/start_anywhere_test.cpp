@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot that nobody tells where it is, and one that is carried away.
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
