@@ -20,7 +20,7 @@ struct Robot {
 
   PoseEstimate see_from(const Pose2& pose) {
     const RawScan raw = test::sweep(walls, pose, 0.01, rng, Stamp::from_seconds(0.1 * scans++));
-    const PoseEstimate estimate = localizer->update(Scan::make(raw).value());
+    PoseEstimate estimate = localizer->update(Scan::make(raw).value());
     EXPECT_TRUE(estimate.map_from_base.is_finite() && estimate.covariance.allFinite());
     EXPECT_TRUE(std::isfinite(estimate.quality) && std::isfinite(estimate.protection_m) &&
                 std::isfinite(estimate.protection_rad));
@@ -77,6 +77,7 @@ TEST(StartAnywhere, ARobotThatIsCarriedAwayIsLostThenFoundAndSaysThatItJumped) {
   const Pose2 after{22.5, 6.0, 2.0};
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(robot.see_from(before).ok()) << i;
   std::vector<PoseEstimate> estimates;
+  estimates.reserve(80);
   for (int i = 0; i < 80; ++i) estimates.push_back(robot.see_from(after));
   const auto first_ok =
       std::find_if(estimates.begin(), estimates.end(), [](const PoseEstimate& e) { return e.ok(); });

@@ -23,7 +23,7 @@ Points seen_in(const FloorPlan& plan, const Pose2& pose, Rng& rng) {
 
 Pose2 somewhere(Rng& rng) { return {rng.uniform(0.7, 5.3), rng.uniform(0.7, 3.0), rng.uniform(-3.1, 3.1)}; }
 
-SurfaceMap map_of(const FloorPlan& plan) { return SurfaceMap(WallIndex(plan)); }
+SurfaceMap map_of(const FloorPlan& plan) { return WallIndex(plan); }
 
 std::vector<StartPose> search(const Points& points, const NearnessPyramid& map, const FloorPlan::Bounds& box,
                               const GlobalSearchConfig& config) {
