@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot that may be anywhere: the search of the whole map and all headings with one scan, and the whole
 // first look of PlaceFinder, at random places of grids of 5 cm that are read as walls.
+#include <algorithm>
 #include <fstream>
 #include <memory>
+#include <string>
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>
@@ -39,7 +41,7 @@ struct Site {
   PlacesConfig places;
 };
 
-double resident_MB() {
+double resident_megabytes() {
   std::ifstream statm("/proc/self/statm");
   double all = 0.0;
   double resident = 0.0;
@@ -127,7 +129,7 @@ void see(benchmark::State& state, const std::string& name) {
   const Site& site = site_named(name);
   PlacesConfig config = site.places;
   config.search.threads = static_cast<int>(state.range(0));
-  const double before_MB = resident_MB();
+  const double before = resident_megabytes();
   PlaceFinder finder(config, site.map, {}, {});
   bench::Latencies latencies(clock_for(config.search.threads));
   double all = 0.0;
@@ -156,7 +158,7 @@ void see(benchmark::State& state, const std::string& name) {
   state.counters["several"] = several / all;
   state.counters["true_likely"] = listed / all;
   state.counters["walls_MB"] = 1e-6 * static_cast<double>(std::get<WallIndex>(*site.map).memory_bytes());
-  state.counters["finder_MB"] = resident_MB() - before_MB;
+  state.counters["finder_MB"] = resident_megabytes() - before;
 }
 
 void add(const std::string& verb, const std::string& site,

@@ -26,7 +26,8 @@ void describe(Fields& fields, GlobalSearchConfig& config) {
   fields("keep", config.keep, {2, 1000}, "best places that are looked at closely …");
   fields("hopeless", config.hopeless, {0.0, 1.0},
          "… whose cost is at most so much above the best, as a share of the worst cost");
-  fields("threads", config.threads, {1, 64}, "that share the work; the places are the same with any number");
+  fields("threads", config.threads, {1, 64},
+         "that share the work of a search; what is found is the same with any number");
 }
 
 void search_everywhere(std::span<const Eigen::Vector2d> points, const NearnessPyramid& map,

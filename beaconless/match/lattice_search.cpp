@@ -21,7 +21,7 @@ using Pyramid = NearnessPyramid;
 constexpr int kTop = Pyramid::kLevels - 1;
 constexpr int kFan = Pyramid::block_cells(1);        // blocks that a block consists of, to each side
 constexpr int kSide = Pyramid::kTileColumns / kFan;  // blocks side by side that are one tile of smaller ones
-constexpr int kWide = 30000;  // blocks of the top level, from which on they are too many for a heap
+constexpr int kWide = 20000;  // blocks of the top level, from which on they are too many for a heap
 static_assert(kFan <= Pyramid::kTileRows && kFan <= Pyramid::kTileColumns);
 
 /// Whether a block is to be looked at after another. Blocks come before single poses that cost the same, so

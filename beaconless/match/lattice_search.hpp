@@ -57,9 +57,9 @@ struct LatticeScratch {
 /// Exact: the same as if every pose was tried, ties going to the first heading, then y, then x; the cost is
 /// the mean of 1 - nearness / kOnSurface over the points' cells. In: at most TileSums::kMostCells points, in
 /// the laser frame; a finite lattice. Cost: points x headings x blocks of the whole lattice, 64 at once, and
-/// a few hundred blocks that are looked into. Source: Hess et al., ICRA 2016, V-B (branch and bound over
-/// headings and blocks of positions, points turned once a heading). Differs: best first instead of depth
-/// first, which gives the second best too.
+/// a few hundred blocks that are looked into; of a wide lattice all that are not hopeless, four at once.
+/// Source: Hess et al., ICRA 2016, V-B (branch and bound over headings and blocks of positions, points turned
+/// once a heading). Differs: best first instead of depth first, which gives the second best too.
 void search_lattice(std::span<const Eigen::Vector2d> points, const NearnessPyramid& map,
                     const PoseLattice& lattice, const LatticeWish& wish, LatticeScratch& scratch,
                     std::vector<StartPose>& found);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot that nobody tells where it is, and one that is carried away.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "beaconless/localize/make_localizer.hpp"
+
+#include "tests/support/rooms.hpp"
+
+namespace beaconless {
+namespace {
+
+/// Scans from places in a building, a tenth of a second apart.
+struct Robot {
+  Robot(const FloorPlan& plan, const std::optional<SearchRegion>& within)
+      : walls(plan.segments()), localizer(make_localizer({}, plan).value()) {
+    localizer->start_anywhere(within);
+  }
+
+  PoseEstimate see_from(const Pose2& pose) {
+    const RawScan raw = test::sweep(walls, pose, 0.01, rng, Stamp::from_seconds(0.1 * scans++));
+    PoseEstimate estimate = localizer->update(Scan::make(raw).value());
+    EXPECT_TRUE(estimate.map_from_base.is_finite() && estimate.covariance.allFinite());
+    EXPECT_TRUE(std::isfinite(estimate.quality) && std::isfinite(estimate.protection_m) &&
+                std::isfinite(estimate.protection_rad));
+    const auto candidates = localizer->candidates();
+    if (estimate.status == Status::relocalizing) {
+      double weights = 0.0;
+      for (const PoseCandidate& candidate : candidates) {
+        weights += candidate.weight;
+        EXPECT_TRUE(candidate.map_from_base.is_finite());
+        EXPECT_TRUE(candidate.score >= 0.0 && candidate.score <= 1.0);
+      }
+      EXPECT_NEAR(weights, 1.0, 1e-9);
+    }
+    return estimate;
+  }
+
+  RayCaster walls;
+  std::unique_ptr<Localizer> localizer;
+  Rng rng{9};
+  int scans = 0;
+};
+
+TEST(StartAnywhere, InARoomWithoutSymmetryTheFirstScanIsOk) {
+  Robot robot(test::niche_room(), {});
+  const Pose2 pose{2.0, 1.5, 0.4};
+  for (int i = 0; i < 5; ++i) {
+    const PoseEstimate estimate = robot.see_from(pose);
+    ASSERT_EQ(estimate.status, Status::ok) << i << estimate.reason;
+    EXPECT_LT(distance_m(estimate.map_from_base, pose), 0.02);
+    EXPECT_FALSE(estimate.jumped);  // there was no belief to change
+  }
+}
+
+TEST(StartAnywhere, InASymmetricRoomNoPoseIsEverOk) {
+  Robot robot(test::rectangle(6.0, 4.0), {});
+  for (int i = 0; i < 60; ++i) {
+    const PoseEstimate estimate = robot.see_from({1.5 + 0.04 * i, 1.3 + 0.02 * i, 0.3 + 0.05 * i});
+    ASSERT_EQ(estimate.status, Status::relocalizing) << i;
+    EXPECT_EQ(robot.localizer->candidates().size(), 2U);
+  }
+}
+
+TEST(StartAnywhere, WithinARegionThatHoldsOneOfTwoPlacesTheFirstScanIsOk) {
+  const Pose2 pose{1.5, 1.3, 0.3};
+  Robot robot(test::rectangle(6.0, 4.0), SearchRegion{{1.5, 1.0}, 1.0});
+  const PoseEstimate estimate = robot.see_from(pose);
+  EXPECT_EQ(estimate.status, Status::ok) << estimate.reason;
+  EXPECT_LT(distance_m(estimate.map_from_base, pose), 0.02);
+}
+
+TEST(StartAnywhere, ARobotThatIsCarriedAwayIsLostThenFoundAndSaysThatItJumped) {
+  Robot robot(test::rack_hall(), {});
+  const Pose2 before{1.2, 1.2, 0.2};
+  const Pose2 after{22.5, 6.0, 2.0};
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(robot.see_from(before).ok()) << i;
+  std::vector<PoseEstimate> estimates;
+  estimates.reserve(80);
+  for (int i = 0; i < 80; ++i) estimates.push_back(robot.see_from(after));
+  const auto first_ok =
+      std::find_if(estimates.begin(), estimates.end(), [](const PoseEstimate& e) { return e.ok(); });
+  ASSERT_NE(first_ok, estimates.end());
+  EXPECT_LT(distance_m(first_ok->map_from_base, after), 0.05);
+  EXPECT_TRUE(first_ok->jumped);
+  EXPECT_TRUE(std::any_of(estimates.begin(), first_ok, [](const PoseEstimate& e) {
+    return e.status == Status::lost || e.status == Status::relocalizing;
+  }));
+  for (auto later = first_ok + 1; later != estimates.end(); ++later) {
+    EXPECT_TRUE(later->ok());
+    EXPECT_FALSE(later->jumped);
+  }
+}
+
+}  // namespace
+}  // namespace beaconless
