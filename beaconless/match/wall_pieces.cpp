@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__x86_64__) || defined(__i386__)
+#include <immintrin.h>
+#endif
+
 namespace beaconless {
 namespace {
 
@@ -73,20 +77,6 @@ namespace four_lanes {
 #endif
 
 }  // namespace
-
-PartialSums& PartialSums::operator+=(const PartialSums& other) {
-  for (std::size_t i = 0; i < hessian.size(); ++i) hessian[i] += other.hessian[i];
-  for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] += other.gradient[i];
-  across += other.across;
-  return *this;
-}
-
-PartialSums& PartialSums::operator-=(const PartialSums& other) {
-  for (std::size_t i = 0; i < hessian.size(); ++i) hessian[i] -= other.hessian[i];
-  for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] -= other.gradient[i];
-  across -= other.across;
-  return *this;
-}
 
 void sum_pieces(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] VectorLoop loop,
                 std::vector<WallPiece>& pieces) {

@@ -8,15 +8,18 @@
 
 namespace beaconless {
 
-/// The sums of a Gauss-Newton step over some of a scan's beams, as ten numbers that can be added and taken
-/// away.
+/// The sums of a Gauss-Newton step over some of a scan's beams, as ten numbers that can be added.
 struct PartialSums {
   std::array<double, 6> hessian{};   ///< xx, xy, yy, xt, yt, tt of Σ w J Jᵀ / variance
   std::array<double, 3> gradient{};  ///< Σ w J e / variance
   double across = 0.0;               ///< Σ w / (variance cos²): what is known of the way to the wall, 1/m²
 
-  PartialSums& operator+=(const PartialSums& other);
-  PartialSums& operator-=(const PartialSums& other);
+  PartialSums& operator+=(const PartialSums& other) {
+    for (std::size_t i = 0; i < hessian.size(); ++i) hessian[i] += other.hessian[i];
+    for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] += other.gradient[i];
+    across += other.across;
+    return *this;
+  }
 };
 
 /// Neighbouring beams on one wall, within one octant of bearing.

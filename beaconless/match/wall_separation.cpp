@@ -16,11 +16,10 @@ constexpr double kSameLine_sine = 0.03;
 /// The line on which a piece lies; the last of them where there are too many.
 WallPiece& line_of(const WallPiece& piece, std::vector<WallPiece>& lines) {
   for (WallPiece& line : lines) {
+    if (std::abs(line.offset_m - piece.offset_m) > kSameLine_m) continue;
     const double sine = line.nx * piece.ny - line.ny * piece.nx;
     const double cosine = line.nx * piece.nx + line.ny * piece.ny;
-    if (std::abs(sine) < kSameLine_sine && cosine > 0.0 &&
-        std::abs(line.offset_m - piece.offset_m) < kSameLine_m)
-      return line;
+    if (std::abs(sine) < kSameLine_sine && cosine > 0.0) return line;
   }
   if (lines.size() < kMostLines) lines.push_back({piece.nx, piece.ny, piece.offset_m, 0, {}});
   return lines.back();
@@ -49,7 +48,8 @@ class Furthest {
 
   void take(const WallRest& rest) {
     is_bounded_ = is_bounded_ && rest.is_determined;
-    reach(std::hypot(rest.dx_m, rest.dy_m), rest.variance_m2, std::abs(rest.dtheta_rad), rest.variance_rad2);
+    reach(std::sqrt(rest.dx_m * rest.dx_m + rest.dy_m * rest.dy_m), rest.variance_m2,
+          std::abs(rest.dtheta_rad), rest.variance_rad2);
   }
   void reach(double way_m, double variance_m2, double turn_rad, double variance_rad2) {
     level_.position_m = std::max(level_.position_m, way_m + sigmas_ * std::sqrt(variance_m2));

@@ -179,7 +179,7 @@ TEST(ProtectionLevel, HoldsInPlacesThatAreNotAsDrawn) {
     }
   }
   EXPECT_GT(scans, 450);
-  EXPECT_LE(beyond, 1);  // one in ten thousand are 0.05 of them; without leaving out there are six
+  EXPECT_LE(beyond, 1);  // one in ten thousand are 0.05 of them; with nothing left out there are five
 }
 
 }  // namespace
