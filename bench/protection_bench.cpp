@@ -11,7 +11,7 @@
 #include "beaconless/match/see_through.hpp"
 #include "beaconless/match/walls.hpp"
 
-#include "tests/support/faulty_worlds.hpp"
+#include "tests/support/faulty_scans.hpp"
 
 namespace {
 
