@@ -52,6 +52,7 @@ namespace four_lanes {
 void WallBeams::reserve(std::size_t beams) {
   const std::size_t room = (beams + kLanes - 1) / kLanes * kLanes;
   if (room <= x_m.size()) return;
+  starts.resize(room);
   for (auto* column : {&x_m, &y_m, &ux, &uy, &nx, &ny, &offset_m, &information}) column->resize(room);
 }
 
@@ -64,16 +65,17 @@ void WallBeams::fill_up() {
   }
 }
 
-WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] VectorLoop loop) {
+WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] VectorLoop loop,
+                   WallMarks* marks) {
   const LoopInput in{step.x_m, step.y_m, std::cos(step.theta_rad), std::sin(step.theta_rad),
                      1.0 / (cut * cut)};
   LoopSums sums{};
 #ifdef WALL_HAS_AVX2
   if (loop == VectorLoop::avx2)
-    four_lanes::sum_lanes(beams, in, sums);
+    four_lanes::sum_lanes(beams, in, marks, sums);
   else
 #endif
-    two_lanes::sum_lanes(beams, in, sums);
+    two_lanes::sum_lanes(beams, in, marks, sums);
   const auto& [xx, xy, yy, xt, yt, tt] = sums.hessian;
   WallSums out;
   out.hessian << xx, xy, xt, xy, yy, yt, xt, yt, tt;

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "beaconless/geometry/pose2.hpp"
 #include "beaconless/match/vector_loop.hpp"
+#include "beaconless/match/wall_marks.hpp"
 
 namespace beaconless {
 
@@ -26,8 +28,10 @@ struct WallBeams {
   std::vector<double> offset_m;
   std::vector<double> information;  ///< 1/variance of its range, 1/m²
   std::size_t count = 0;
+  std::vector<std::uint32_t> starts;  ///< beams that are on another wall than the one before them
+  std::size_t start_count = 0;
 
-  void clear() { count = 0; }
+  void clear() { count = start_count = 0; }
   /// Makes room for so many beams. Allocates only to hold more than ever before.
   void reserve(std::size_t beams);
   /// Where there is room for one more.
@@ -61,9 +65,11 @@ struct WallSums {
 
 /// Sums over all beams with the laser moved by `step` from where they were paired.
 ///
-/// In: Tukey's weights of z with an end at `cut` > 0; a loop that this processor knows. Cost: some 60
-/// operations a beam, two or four at once. Source: Censi, "On achievable accuracy for range-finder
-/// localization", ICRA 2007 (J); Huber, "Robust Statistics", 1981, 6.3 (the last sums).
-WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, VectorLoop loop);
+/// In: Tukey's weights of z with an end at `cut` > 0; a loop that this processor knows; marks of that loop,
+/// if any, which get the sums that a step is made of. Cost: some 60 operations a beam, two or four at once.
+/// Source: Censi, "On achievable accuracy for range-finder localization", ICRA 2007 (J); Huber, "Robust
+/// Statistics", 1981, 6.3 (the last sums).
+WallSums sum_walls(const WallBeams& beams, const Pose2& step, double cut, VectorLoop loop,
+                   WallMarks* marks = nullptr);
 
 }  // namespace beaconless

@@ -173,7 +173,8 @@ struct Columns {
         nx(beams.nx.data()),
         ny(beams.ny.data()),
         offset_m(beams.offset_m.data()),
-        information(beams.information.data()) {}
+        information(beams.information.data()),
+        starts(beams.starts.data()) {}
 
   double* x_m;
   double* y_m;
@@ -183,6 +184,7 @@ struct Columns {
   double* ny;
   double* offset_m;
   double* information;
+  std::uint32_t* starts;
 };
 
 /// The beams that lie on the map, summed up.

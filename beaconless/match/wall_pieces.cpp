@@ -3,102 +3,88 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 
 namespace beaconless {
 namespace {
 
-struct LoopInput {
-  double x;
-  double y;
-  double cos;
-  double sin;
-  double inverse_cut2;
-};
-
-/// What the beams of a piece have in common.
-struct Key {
-  double nx = 0.0;
-  double ny = 0.0;
-  double offset_m = 0.0;
-  int octant = 0;
-
-  friend bool operator==(const Key&, const Key&) = default;
-};
-
-/// Over the beams of a piece, with W = w / (variance cos²), τ the lever of a turn and f the way beyond the
-/// wall, across it.
-struct LineSums {
-  double a = 0.0;  // Σ W
-  double b = 0.0;  // Σ W τ
-  double c = 0.0;  // Σ W τ²
-  double d = 0.0;  // Σ W f
-  double e = 0.0;  // Σ W τ f
-};
-
-inline int octant_of(double ux, double uy) {
+int octant_of(double ux, double uy) {
   return (ux < 0.0 ? 1 : 0) | (uy < 0.0 ? 2 : 0) | (std::abs(uy) > std::abs(ux) ? 4 : 0);
 }
 
-void finish(const Key& key, const LineSums& of, std::vector<WallPiece>& pieces) {
-  if (!(of.a > 0.0)) return;
-  pieces.push_back({key.nx,
-                    key.ny,
-                    key.offset_m,
-                    key.octant,
-                    {{key.nx * key.nx * of.a, key.nx * key.ny * of.a, key.ny * key.ny * of.a, key.nx * of.b,
-                      key.ny * of.b, of.c},
-                     {key.nx * of.d, key.ny * of.d, of.e},
-                     of.a}});
+int octant_at(const WallBeams& beams, std::size_t i) { return octant_of(beams.ux[i], beams.uy[i]); }
+
+/// The last block of lanes of those from `first` on, up to `last`, that begins in the same octant as `first`.
+std::size_t end_of_octant(const WallBeams& beams, std::size_t first, std::size_t last, std::size_t width) {
+  const int octant = octant_at(beams, first);
+  if (octant_at(beams, last) == octant) return last + 1;
+  std::size_t within = first;
+  std::size_t beyond = last;
+  while (beyond - within > 1) {
+    const std::size_t middle = (within + beyond) / 2;
+    (octant_at(beams, middle) == octant ? within : beyond) = middle;
+  }
+  return std::min((beyond + width - 1) / width * width, last + 1);
 }
 
-namespace two_lanes {
-#define WALL_LANES 2
-#define WALL_TARGET
-#include "beaconless/match/wall_piece_lanes.inc"
-#undef WALL_LANES
-#undef WALL_TARGET
-}  // namespace two_lanes
+/// What a loop added between two marks, lane by lane.
+struct Between {
+  const WallMarks::Lanes* before = nullptr;
+  const WallMarks::Lanes* after = nullptr;
 
-#if defined(__x86_64__) || defined(__i386__)
-#define WALL_HAS_AVX2
-namespace four_lanes {
-#define WALL_LANES 4
-#define WALL_TARGET __attribute__((target("avx2,fma")))
-#include "beaconless/match/wall_piece_lanes.inc"
-#undef WALL_LANES
-#undef WALL_TARGET
-}  // namespace four_lanes
-#endif
+  double of(std::size_t sum, std::size_t lane) const {
+    return (*after)[sum * WallBeams::kLanes + lane] -
+           (before == nullptr ? 0.0 : (*before)[sum * WallBeams::kLanes + lane]);
+  }
+};
+
+void add_lane(const Between& between, std::size_t lane, PartialSums& sums) {
+  for (std::size_t k = 0; k < 6; ++k) sums.hessian[k] += between.of(k, lane);
+  for (std::size_t k = 0; k < 3; ++k) sums.gradient[k] += between.of(6 + k, lane);
+}
 
 }  // namespace
 
-PartialSums& PartialSums::operator+=(const PartialSums& other) {
-  for (std::size_t i = 0; i < hessian.size(); ++i) hessian[i] += other.hessian[i];
-  for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] += other.gradient[i];
-  across += other.across;
-  return *this;
-}
-
-PartialSums& PartialSums::operator-=(const PartialSums& other) {
-  for (std::size_t i = 0; i < hessian.size(); ++i) hessian[i] -= other.hessian[i];
-  for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] -= other.gradient[i];
-  across -= other.across;
-  return *this;
-}
-
-void sum_pieces(const WallBeams& beams, const Pose2& step, double cut, [[maybe_unused]] VectorLoop loop,
-                std::vector<WallPiece>& pieces) {
-  const LoopInput in{step.x_m, step.y_m, std::cos(step.theta_rad), std::sin(step.theta_rad),
-                     1.0 / (cut * cut)};
+void divide(const WallBeams& beams, VectorLoop loop, WallMarks& marks, std::vector<WallPiece>& pieces) {
+  const std::size_t width = loop == VectorLoop::avx2 ? 4 : 2;
+  marks.width = width;
+  marks.at.clear();
   pieces.clear();
-#ifdef WALL_HAS_AVX2
-  if (loop == VectorLoop::avx2)
-    four_lanes::sum_lanes(beams, in, pieces);
-  else
-#endif
-    two_lanes::sum_lanes(beams, in, pieces);
+  const auto mark = [&](std::size_t at) {
+    if (at > 0 && (marks.at.empty() || marks.at.back() < at))
+      marks.at.push_back(static_cast<std::uint32_t>(at));
+  };
+  for (std::size_t k = 0; k < beams.start_count; ++k) {
+    const std::size_t end = k + 1 < beams.start_count ? beams.starts[k + 1] : beams.count;
+    for (std::size_t first = beams.starts[k]; first < end;) {
+      const std::size_t next = end_of_octant(beams, first, end - 1, width);
+      pieces.push_back({beams.nx[first],
+                        beams.ny[first],
+                        beams.offset_m[first],
+                        octant_at(beams, first),
+                        static_cast<std::uint32_t>(next),
+                        {}});
+      // Lanes that two pieces share are left by themselves.
+      mark(next / width * width);
+      mark((next + width - 1) / width * width);
+      first = next;
+    }
+  }
+  marks.lanes.resize(std::max(marks.lanes.size(), marks.at.size()));
+}
+
+void add_up(const WallMarks& marks, std::vector<WallPiece>& pieces) {
+  std::size_t piece = 0;
+  std::size_t from = 0;
+  Between between;
+  for (std::size_t k = 0; k < marks.at.size(); ++k) {
+    between.after = &marks.lanes[k];
+    for (std::size_t lane = 0; lane < marks.width; ++lane) {
+      while (piece + 1 < pieces.size() && from + lane >= pieces[piece].end) ++piece;
+      add_lane(between, lane, pieces[piece].sums);
+    }
+    from = marks.at[k];
+    between.before = between.after;
+  }
 }
 
 }  // namespace beaconless

@@ -14,8 +14,8 @@ void WallPulls::add(const WallPiece& line, double variance_m2) {
   // The lever Σ W τ stands beside the normal in the sums of x and of y; the larger part of it tells.
   const bool is_along_y = std::abs(line.nx) < std::abs(line.ny);
   const double turn = is_along_y ? line.sums.hessian[4] / line.ny : line.sums.hessian[3] / line.nx;
-  const double x = line.nx * line.sums.across;
-  const double y = line.ny * line.sums.across;
+  const double x = line.nx * line.sums.across();
+  const double y = line.ny * line.sums.across();
   squares[0] += variance_m2 * x * x;
   squares[1] += variance_m2 * x * y;
   squares[2] += variance_m2 * y * y;
@@ -58,9 +58,9 @@ WallRest rest_without(const PartialSums& all, const PartialSums& left_out, const
   const double sy = xy * gx + yy * gy + yt * gt;
   const double st = xt * gx + yt * gy + tt * gt;
   const double stretch = 1.0 / fit.curvature;
-  rest.dx_m = stretch * sx;
-  rest.dy_m = stretch * sy;
-  rest.dtheta_rad = stretch * st;
+  rest.dx_m = stretch * sx - fit.last_step.x();
+  rest.dy_m = stretch * sy - fit.last_step.y();
+  rest.dtheta_rad = stretch * st - fit.last_step.z();
   const double noise = fit.variance_factor;
   // 3. What is uncertain of it.
   const auto [pxx, pxy, pyy, pxt, pyt, ptt] = pulls.squares;

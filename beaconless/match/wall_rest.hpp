@@ -11,6 +11,7 @@ struct SeparatedFit {
   double curvature = 1.0;        ///< mean of that of the beams' losses, over the mean weight
   double map_sigma_m = 0.0;      ///< of what all walls may be off by alike
   double arm_m = 1.0;            ///< root mean square distance of the beams
+  Eigen::Vector3d last_step = Eigen::Vector3d::Zero();  ///< from where the sums were made to the fit
 };
 
 /// Where a pose goes when some of its beams are left out, and how uncertain it is there.
@@ -21,6 +22,8 @@ struct WallRest {
   double dtheta_rad = 0.0;
   double variance_m2 = 0.0;  ///< along the worst direction
   double variance_rad2 = 0.0;
+
+  double way_m2() const { return dx_m * dx_m + dy_m * dy_m; }
 };
 
 /// The larger eigenvalue of a symmetric 2x2 matrix.

@@ -30,9 +30,11 @@ double expected_square(double cut) { return 1.0 - 4.0 / (cut * cut + 1.0); }
 /// Where Gauss-Newton ends on fixed pairs, and the sums there.
 struct Fit {
   Pose2 step;
-  WallSums sums;       // a last small step before it
+  WallSums sums;  // a last small step before it
+  Eigen::Vector3d last_step = Eigen::Vector3d::Zero();
   double scale = 1.0;  // measured, in expected standard deviations
   int iterations = 0;
+  bool is_marked = false;  // the sums were left at the marks
 };
 
 /// What the weights add to the variance of a pose. Source: Huber 1981, 6.3.
@@ -52,21 +54,33 @@ double arm_of(const WallSums& sums) {
   return std::sqrt(sums.arm_squares_m2 / std::max(sums.weight, 1e-9)) + 1e-3;
 }
 
-Fit descend(const WallBeams& beams, double first_scale, const WallsConfig& config, VectorLoop loop) {
+/// How far the ends of beams have moved since they were paired.
+double moved_m(const Fit& fit) {
+  return fit.step.translation().norm() + arm_of(fit.sums) * std::abs(fit.step.theta_rad);
+}
+
+/// Sums are left at marks where they may be the last of all: near enough to where the beams were paired that
+/// they need not be paired again, after a step or, in a later round of pairing, `is_near` from the beginning.
+Fit descend(double first_scale, double still_m, bool is_near, const WallsConfig& config, VectorLoop loop,
+            WallsScratch& scratch) {
   Fit fit;
   double next_scale = std::max(1.0, first_scale);
   for (fit.iterations = 1; fit.iterations <= kSteps; ++fit.iterations) {
     // 1. How the beams fit here, and what they scatter by.
     fit.scale = next_scale;
-    fit.sums = sum_walls(beams, fit.step, config.cut_sigma * fit.scale, loop);
+    fit.is_marked = (is_near || fit.iterations > 1) && moved_m(fit) < still_m;
+    if (fit.is_marked) divide(scratch.beams, loop, scratch.marks, scratch.pieces);
+    fit.sums = sum_walls(scratch.beams, fit.step, config.cut_sigma * fit.scale, loop,
+                         fit.is_marked ? &scratch.marks : nullptr);
     const double measured = std::sqrt((fit.sums.weighted_squares + kPriorBeams) /
                                       (fit.sums.weight + kPriorBeams) / expected_square(config.cut_sigma));
     next_scale = std::clamp(measured, std::max(1.0, fit.scale / kNarrowing), std::max(1.0, fit.scale));
     // 2. Step along what they determine. What a small last step would change about the sums is its square.
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
-    const Eigen::Vector3d step = -seen.inverse() * fit.sums.gradient / step_curvature_of(fit.sums);
-    fit.step = stepped(fit.step, step);
-    const bool is_still = step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad;
+    fit.last_step = -seen.inverse() * fit.sums.gradient / step_curvature_of(fit.sums);
+    fit.step = stepped(fit.step, fit.last_step);
+    const bool is_still =
+        fit.last_step.head<2>().norm() < kStill_m && std::abs(fit.last_step.z()) < kStill_rad;
     if (is_still && next_scale > kSettled * fit.scale) break;
   }
   return fit;
@@ -84,12 +98,20 @@ Eigen::Matrix3d covariance_of(const Fit& fit, const Observability& seen, const P
 }
 
 /// What the protection level is made of.
-FittedWalls fitted(const Fit& fit, const Pose2& paired_at, double map_sigma_m, const WallsConfig& config) {
-  return {paired_at,
-          fit.step,
-          config.cut_sigma * fit.scale,
-          fit.sums.weight,
-          {variance_factor_of(fit.sums), step_curvature_of(fit.sums), map_sigma_m, arm_of(fit.sums)}};
+FittedWalls left_behind(const Fit& fit, const Pose2& paired_at, double map_sigma_m, const WallsConfig& config,
+                        VectorLoop loop, WallsScratch& scratch) {
+  FittedWalls left{paired_at,
+                   fit.step,
+                   fit.sums.weight,
+                   {variance_factor_of(fit.sums), step_curvature_of(fit.sums), map_sigma_m, arm_of(fit.sums),
+                    fit.last_step}};
+  if (!fit.is_marked) {
+    divide(scratch.beams, loop, scratch.marks, scratch.pieces);
+    sum_walls(scratch.beams, fit.step, config.cut_sigma * fit.scale, loop, &scratch.marks);
+    left.known.last_step.setZero();
+  }
+  add_up(scratch.marks, scratch.pieces);
+  return left;
 }
 
 }  // namespace
@@ -140,7 +162,8 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
       return result;
     }
     // 2. The pose from which they hit them best.
-    const Fit fit = descend(scratch.beams, gate_m / (config.cut_sigma * noise_m), config, loop);
+    const double still_m = kMoved_sigma * noise_m;
+    const Fit fit = descend(gate_m / (config.cut_sigma * noise_m), still_m, round > 1, config, loop, scratch);
     const Observability seen(fit.sums.hessian, arm_of(fit.sums), fit.scale, config.unobservable_sigma_m);
     result.map_from_laser = before * fit.step;
     const double map_sigma_m = std::hypot(believed.map_sigma_m, std::sqrt(pairing.wall_variance_m2));
@@ -154,16 +177,15 @@ MatchResult match_walls(std::span<const Eigen::Vector2d> points, const WallIndex
     // 3. Pairs that were made from too far away, or too generously, are made again.
     const double next_gate_m =
         std::min(gate_m, std::max(config.near_gate_m, config.cut_sigma * result.scale_m));
-    const double moved_m = fit.step.translation().norm() + arm_of(fit.sums) * std::abs(fit.step.theta_rad);
-    const bool has_moved = moved_m > kMoved_sigma * noise_m;
+    const bool has_moved = moved_m(fit) > still_m;
     const bool is_settled = !has_moved && next_gate_m > 0.8 * gate_m;
     // 4. What scatters more than the laser does is the map: its walls are off across, not along the beams.
     const double by_chance = kByChance / std::sqrt(static_cast<double>(result.pair_count));
     const bool is_off = fit.scale > 1.0 + by_chance && !is_map_blamed;
     const bool is_last = (is_settled && !is_off) || round == kRounds;
     if (is_last && result.rank == 3)
-      result.protection =
-          protect_walls(points, walls, fitted(fit, before, map_sigma_m, config), config, scratch);
+      result.protection = protect_walls(
+          points, walls, left_behind(fit, before, map_sigma_m, config, loop, scratch), config, scratch);
     if (is_settled && !is_off) break;
     if (is_settled) {
       const double off_m = kAcross * noise_m * std::sqrt(fit.scale * fit.scale - 1.0);

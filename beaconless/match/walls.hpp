@@ -35,6 +35,7 @@ void describe(Fields& fields, WallsConfig& config);
 /// Buffers that live on from call to call, so that a match allocates nothing.
 struct WallsScratch {
   WallBeams beams;
+  WallMarks marks;
   std::vector<WallPiece> pieces;
   std::vector<WallPiece> lines;  ///< the pieces of each added up
   std::vector<Eigen::Vector2d> thinned;
