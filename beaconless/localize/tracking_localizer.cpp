@@ -113,6 +113,7 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   started_ = true;
   is_anywhere_ = false;
   is_new_place_ = false;
+  candidates_.clear();
   surprised_scans_ = 0;
   way_.begin();
   first_scan_ = true;
