@@ -23,6 +23,8 @@ constexpr double kJump_rad = radians(8.0);
 constexpr double kSurprise_sigma = 4.0;
 constexpr double kSurprise_m = 0.06;
 constexpr double kSurprise_rad = radians(2.0);
+constexpr int kFewAgree = 3;      // scans of a slow scanner that agree on a place suffice …
+constexpr double kAgree_s = 1.0;  // … over so long
 constexpr int kSurprised = 5;     // scans
 constexpr double kStart_m = 1.8;  // what a start pose may be off …
 constexpr double kStart_rad = radians(60.0);
@@ -155,7 +157,7 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   is_new_place_ = false;
   // 3. One that is no longer there may be anywhere.
   const bool is_adrift = health_.lost() && health_.is_weak(explained_) && !is_covered_;
-  const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_);
+  const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_) && !is_only_here(*scan);
   if (config_.relocalize && (is_adrift || has_parted))
     search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
   return last_;
@@ -167,6 +169,14 @@ void TrackingLocalizer::search_anywhere(const FloorPlan::Bounds& box, int agreei
   agreed_scans_ = 0;
   candidates_.clear();
   finder_.begin(box);
+}
+
+bool TrackingLocalizer::is_only_here(const Scan& scan) {
+  finder_.begin();
+  if (finder_.see(scan.stamp(), points_, std::nullopt) != PlaceFinder::Verdict::one) return false;
+  const Pose2 here = last_.map_from_base * config_.base_from_laser;
+  const Pose2& there = finder_.places().front().map_from_laser;
+  return distance_m(here, there) < kJump_m && heading_difference_rad(here, there) < kJump_rad;
 }
 
 std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
@@ -186,8 +196,10 @@ std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
   const PlaceFinder::Verdict verdict = finder_.see(scan.stamp(), points_, moved);
   list_candidates();
   // 3. It is there, once enough scans agree on one place.
-  agreed_scans_ = verdict == PlaceFinder::Verdict::one ? agreed_scans_ + 1 : 0;
-  if (agreed_scans_ < agreeing_scans_) return searching(scan, verdict);
+  if (verdict != PlaceFinder::Verdict::one) agreed_scans_ = 0;
+  if (verdict == PlaceFinder::Verdict::one && agreed_scans_++ == 0) agreed_since_ = scan.stamp();
+  const bool is_long = agreed_scans_ >= kFewAgree && seconds_between(agreed_since_, scan.stamp()) >= kAgree_s;
+  if (agreed_scans_ < agreeing_scans_ && !is_long) return searching(scan, verdict);
   const bool was_placed = was_placed_;
   start_at(finder_.places().front().map_from_laser * laser_from_base_);
   is_new_place_ = was_placed;

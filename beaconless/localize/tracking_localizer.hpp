@@ -44,6 +44,7 @@ class TrackingLocalizer final : public Localizer {
  private:
   PoseEstimate track(const Scan& scan);
   std::optional<PoseEstimate> find(const Scan& scan);
+  bool is_only_here(const Scan& scan);
   void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans);
   PoseEstimate searching(const Scan& scan, PlaceFinder::Verdict verdict);
   void list_candidates();
@@ -105,6 +106,7 @@ class TrackingLocalizer final : public Localizer {
   bool was_placed_ = false;    // something was, before that
   int agreeing_scans_ = 1;     // that it takes to be found
   int agreed_scans_ = 0;
+  Stamp agreed_since_;
   bool first_scan_ = true;
   bool is_covered_ = false;
   bool is_through_walls_ = false;  // beams pass through walls where the robot is thought to be

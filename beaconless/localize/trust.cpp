@@ -15,12 +15,12 @@ constexpr double kMemory = 8.0;           // scans that speak
 constexpr double kLeastExplained = 0.05;  // share of the scan of which a blur can be told
 
 // What speaks against a pose, in units of doubt, and how much doubt is too much.
-constexpr double kOfThrough = 18.0;
-constexpr double kOfBlur = 20.0;
-constexpr double kOfLevel = 2.8;  // of a level of this and more:
+constexpr double kOfThrough = 20.0;
+constexpr double kOfBlur = 3.0;
+constexpr double kOfLevel = 3.0;  // of a level of this and more:
 constexpr double kLoose_m = 0.6;
 constexpr double kUntold = 0.5;  // of a method that tells no level
-constexpr double kTooMuch = 1.0;
+constexpr double kTooMuch = 1.2;
 constexpr double kSteep = 4.0;
 
 double through_share(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const Pose2& pose,

@@ -125,7 +125,7 @@ TEST(TrackingLocalizer, SaysThatItIsLostAndComesBackWhenTheRoomDoes) {
   EXPECT_EQ(last, Status::lost);
   // It looks around twice a second, and five scans must agree.
   PoseEstimate estimate;
-  for (int i = 0; i < 26; ++i) estimate = see(home_walls);
+  for (int i = 0; i < 40; ++i) estimate = see(home_walls);
   EXPECT_EQ(estimate.status, Status::ok) << estimate.reason;
   EXPECT_LT(distance_m(estimate.map_from_base, truth), 0.005);
 }

@@ -36,7 +36,7 @@ Seen seen_from(const Pose2& pose, double people_share = 0.0) {
 ScanEvidence weigh_slowly(const Seen& seen, const Pose2& pose) {
   const RayCaster walls(seen.plan.segments());
   const auto is_met = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& way, double length_m) {
-    return walls.cast(from, way, length_m - std::max(0.3, 8.0 * kSigma_m)).has_value();
+    return walls.cast(from, way, length_m - std::max(0.12, 4.0 * kSigma_m)).has_value();
   };
   ScanEvidence sum{.log_likelihood = 0.0};
   const auto beams = static_cast<double>(seen.points.size());
@@ -46,7 +46,7 @@ ScanEvidence weigh_slowly(const Seen& seen, const Pose2& pose) {
     for (const Segment2& wall : walls.segments()) distance_m = std::min(distance_m, wall.distance_m(end));
     const bool is_on = distance_m < 2.0 * kSigma_m;
     const Eigen::Vector2d way = (end - pose.translation()).normalized();
-    const Eigen::Vector2d aside = 2.0 * kSigma_m * Eigen::Vector2d(-way.y(), way.x());
+    const Eigen::Vector2d aside = kSigma_m * Eigen::Vector2d(-way.y(), way.x());
     const double length_m = point.norm();
     const bool is_through = is_met(pose.translation(), way, length_m) &&
                             is_met(pose.translation() + aside, way, length_m) &&
@@ -153,8 +153,8 @@ TEST(PassesThrough, ABeamPastTheEndOfAWallIsNoEvidenceIfTheWallMayBeShorter) {
 }
 
 TEST(PassesThrough, NeitherDoesOneThatEndsShortlyBehind) {
-  EXPECT_FALSE(crosses(4.75, -90.0, 0.0));  // 0.25 m behind
-  EXPECT_TRUE(crosses(4.65, -90.0, 0.0));
+  EXPECT_FALSE(crosses(4.9, -90.0, 0.0));  // 0.1 m behind
+  EXPECT_TRUE(crosses(4.85, -90.0, 0.0));
   EXPECT_FALSE(crosses(4.65, -90.0, 0.1));  // four slacks are more
   EXPECT_TRUE(crosses(4.55, -90.0, 0.1));
 }
