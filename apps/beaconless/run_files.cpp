@@ -108,7 +108,7 @@ void tell(const Console& console, const Run& run, const nlohmann::json& summary,
   for (const auto& [reason, count] : reason_counts(run)) console.say(fmt::format("  {} {}", count, reason));
   for (const std::string& line : ambiguous_lines(run)) console.say(line);
   if (const std::size_t jumps = jumps_of(run).size(); jumps > 0)
-    console.say(fmt::format("the pose jumped {} times", jumps));
+    console.say(fmt::format("the pose jumped {} time{}", jumps, jumps == 1 ? "" : "s"));
   console.say(fmt::format("update: median {:.0f} µs, p99 {:.0f} µs, max {:.0f} µs",
                           times["median"].get<double>(), times["p99"].get<double>(),
                           times["max"].get<double>()));

@@ -49,6 +49,7 @@ Result<std::optional<WrittenBox>> BlackBox::update(const Event& event, const Pos
   const std::string_view reason = reason_now(estimate);
   if (reason.empty()) return std::optional<WrittenBox>{};
   is_armed_ = false;
+  was_good_ = false;
   is_full_ = boxes_ >= config_.most_boxes;
   if (is_full_) return std::optional<WrittenBox>{};
   reason_ = reason;
@@ -84,11 +85,12 @@ void BlackBox::keep(const Event& event, const PoseEstimate& estimate) {
 std::string_view BlackBox::reason_now(const PoseEstimate& estimate) {
   const bool is_low = estimate.quality < config_.low_quality;
   low_scans_ = is_low ? low_scans_ + 1 : 0;
-  if (estimate.ok() && !is_low) is_armed_ = true;
+  is_armed_ = is_armed_ || estimate.ok();
+  was_good_ = was_good_ || (estimate.ok() && !is_low);
   if (!is_armed_) return "";
   if (estimate.status == Status::lost || estimate.status == Status::relocalizing)
     return to_string(estimate.status);
-  return low_scans_ >= config_.low_quality_scans ? "low_quality" : "";
+  return was_good_ && low_scans_ >= config_.low_quality_scans ? "low_quality" : "";
 }
 
 Result<std::optional<WrittenBox>> BlackBox::write() {

@@ -80,7 +80,8 @@ class BlackBox {
   std::deque<Kept> kept_;
   std::size_t kept_scans_ = 0;
   bool has_forgotten_ = false;  // scans have left kept_
-  bool is_armed_ = false;       // there was a good pose since the last box
+  bool is_armed_ = false;       // a pose was ok since the last box …
+  bool was_good_ = false;       // … and of good quality
   std::size_t low_scans_ = 0;   // of low quality, one after the other
   std::size_t scans_to_wait_ = 0;
   std::string_view reason_;  // of the box that waits

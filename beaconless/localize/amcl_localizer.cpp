@@ -15,6 +15,7 @@ namespace beaconless {
 namespace {
 
 constexpr double kNominalStep_s = 0.1;  // between scans whose stamps do not tell
+constexpr double kUnplaced = 0.45;      // most quality of a pose that no start pose and no search vouches for
 constexpr double kOnePlace = 0.95;      // of all weight, in one cluster
 constexpr double kWide_m = 0.3;         // a cloud wider than either in some direction tells no pose
 constexpr double kWide_rad = radians(10.0);
@@ -77,6 +78,7 @@ void AmclLocalizer::start_at(const Pose2& map_from_base) {
   filter_.start_at(map_from_base, at_update_.covariance);
   motion_.start_at(map_from_base);
   is_searching_ = false;
+  is_placed_ = true;
   begin();
 }
 
@@ -91,6 +93,7 @@ void AmclLocalizer::start_anywhere(const std::optional<SearchRegion>& within) {
   at_update_.covariance = spread_around(at_update_.map_from_base, clusters);
   motion_.start_at(at_update_.map_from_base);
   is_searching_ = true;
+  is_placed_ = false;
   begin();
 }
 
@@ -265,7 +268,8 @@ PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   is_doubtful_ = health_.is_doubtful(explained);
   const bool was_lost = health_.lost();
   estimate.status = health_.judge(scan.stamp(), explained);
-  estimate.quality = explained * heaviest_;
+  // Particles that were spread anywhere may have settled on one of two like places.
+  estimate.quality = std::min(is_placed_ ? 1.0 : kUnplaced, explained * heaviest_);
   if (estimate.status == Status::lost)
     estimate.reason = "the scan does not fit the map here";
   else if (estimate.status == Status::degraded)

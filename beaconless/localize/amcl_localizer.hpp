@@ -90,6 +90,7 @@ class AmclLocalizer final : public Localizer {
   double last_step_s_ = 0.0;
   PoseEstimate last_;
   bool is_started_ = false;
+  bool is_placed_ = true;      // by a start pose
   bool is_searching_ = false;  // started anywhere, and not found yet
   bool is_doubtful_ = false;   // the last scan explained less than usual
   bool is_by_wheels_ = false;  // the way to the last scan was told by wheels

@@ -11,7 +11,7 @@
 
 namespace beaconless {
 
-/// A part of the map: a disc.
+/// A part of the map: a disc, and what else is in the square around it.
 struct SearchRegion {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double radius_m = 0.0;
@@ -33,7 +33,8 @@ class Localizer {
   virtual void start_at(const Pose2& map_from_base) = 0;
 
   /// Sets the belief: the robot stands anywhere, or anywhere within a region. The next scans find it, or tell
-  /// that several places fit; nothing is guessed.
+  /// that several places fit. Nothing is guessed, but by the particles of `amcl`: those may settle on one of
+  /// two like places, and their quality stays below 0.5.
   virtual void start_anywhere(const std::optional<SearchRegion>& within = std::nullopt) = 0;
 
   /// The places that fit, the likeliest first; empty where the pose is known, or nothing fits. Valid until

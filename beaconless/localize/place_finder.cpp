@@ -65,6 +65,8 @@ void PlaceFinder::begin(const FloorPlan::Bounds& box) {
   places_.clear();
   views_.clear();
   looked_.reset();
+  since_view_ = Pose2{};
+  last_moved_ = Pose2{};
 }
 
 void PlaceFinder::begin() { begin(bounds_of(*map_)); }
@@ -99,7 +101,11 @@ void PlaceFinder::follow(const Pose2& moved) {
     const double seen = place.log_likelihoods.back();
     const double scans = place.scans_in_view++;
     const Pose2 guess = place.map_from_laser * moved;
-    if (!fit(points_, guess, place) || is_astray(place.map_from_laser, guess)) place.map_from_laser = guess;
+    Place fitted;
+    const bool is_held = fit(points_, guess, fitted) && !is_astray(fitted.map_from_laser, guess);
+    place.map_from_laser = is_held ? fitted.map_from_laser : guess;
+    place.covariance = is_held ? fitted.covariance : Eigen::Matrix3d::Identity();
+    place.rank = is_held ? fitted.rank : 0;
     place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
     place.log_likelihoods.back() = (scans * seen + place.now.log_likelihood) / (scans + 1.0);
   }
@@ -188,7 +194,9 @@ void PlaceFinder::sort_out() {
 }
 
 double PlaceFinder::needed_margin() const {
-  const double coarse = std::pow(std::max(1.0, config_.sigma_m / kFine_m), kCoarse);
+  // What a coarse map gets wrong it gets wrong in every view.
+  const double views = config_.sigma_m <= kFine_m ? 1.0 : static_cast<double>(views_.size());
+  const double coarse = views * std::pow(std::max(1.0, config_.sigma_m / kFine_m), kCoarse);
   return coarse * (config_.margin + config_.doubt * (1.0 - places_.front().now.on_map));
 }
 

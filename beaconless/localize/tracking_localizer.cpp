@@ -116,6 +116,9 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   is_anywhere_ = false;
   is_new_place_ = false;
   candidates_.clear();
+  is_through_walls_ = false;
+  explained_ = 0.0;
+  lost_scans_ = 0;
   surprised_scans_ = 0;
   way_.begin();
   first_scan_ = true;
@@ -123,12 +126,13 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
 
 void TrackingLocalizer::start_anywhere(const std::optional<SearchRegion>& within) {
   FloorPlan::Bounds box = bounds_of(*map_);
-  if (within) {
+  if (within && within->middle.allFinite() && std::isfinite(within->radius_m)) {
     box.low = box.low.cwiseMax((within->middle.array() - within->radius_m).matrix());
     box.high = box.high.cwiseMin((within->middle.array() + within->radius_m).matrix());
   }
   last_ = PoseEstimate{};
   last_scan_.reset();
+  health_ = Health(config_.health);
   was_placed_ = false;
   search_anywhere(box, 1);
 }
@@ -157,8 +161,8 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   is_new_place_ = false;
   // 3. One that is no longer there may be anywhere.
   const bool is_adrift = health_.lost() && health_.is_weak(explained_) && !is_covered_;
-  const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_) && !is_only_here(*scan);
-  if (config_.relocalize && (is_adrift || has_parted))
+  const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_);
+  if (config_.relocalize && (is_adrift || (has_parted && !is_only_here(*scan))))
     search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
   return last_;
 }
@@ -191,7 +195,7 @@ std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
   }
   observe(scan, standing.map_from_base * config_.base_from_laser, kLostCovariance, standing);
   last_scan_ = scan.stamp();
-  if (is_covered_) return coast(standing, scan.stamp(), kCovered);
+  if (is_covered_) return nowhere(scan.stamp(), kCovered);
   // 2. Where that fits.
   const PlaceFinder::Verdict verdict = finder_.see(scan.stamp(), points_, moved);
   list_candidates();
@@ -212,16 +216,22 @@ void TrackingLocalizer::list_candidates() {
     candidates_.push_back({place.map_from_laser * laser_from_base_, place.now.on_map, finder_.weight(place)});
 }
 
+PoseEstimate TrackingLocalizer::nowhere(Stamp stamp, std::string_view reason) {
+  candidates_.clear();
+  agreed_scans_ = 0;
+  PoseEstimate estimate;
+  estimate.stamp = stamp;
+  estimate.map_from_base = last_.map_from_base;
+  estimate.status = Status::lost;
+  estimate.reason = reason;
+  return estimate;
+}
+
 PoseEstimate TrackingLocalizer::searching(const Scan& scan, PlaceFinder::Verdict verdict) {
+  if (verdict == PlaceFinder::Verdict::nothing)
+    return nowhere(scan.stamp(), "the scan fits nowhere where it was looked for");
   PoseEstimate estimate;
   estimate.stamp = scan.stamp();
-  estimate.map_from_base = last_.map_from_base;
-  estimate.covariance += kLostCovariance;
-  if (verdict == PlaceFinder::Verdict::nothing) {
-    estimate.status = Status::lost;
-    estimate.reason = "the scan fits nowhere on the map";
-    return estimate;
-  }
   // The likeliest place, and in the covariance that it may be another.
   estimate.status = Status::relocalizing;
   estimate.reason = verdict == PlaceFinder::Verdict::one ? kFound

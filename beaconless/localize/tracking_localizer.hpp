@@ -46,6 +46,7 @@ class TrackingLocalizer final : public Localizer {
   std::optional<PoseEstimate> find(const Scan& scan);
   bool is_only_here(const Scan& scan);
   void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans);
+  PoseEstimate nowhere(Stamp stamp, std::string_view reason);
   PoseEstimate searching(const Scan& scan, PlaceFinder::Verdict verdict);
   void list_candidates();
   void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,

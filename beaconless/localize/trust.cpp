@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "beaconless/match/see_through.hpp"
 
@@ -23,22 +22,6 @@ constexpr double kUntold = 0.5;  // of a method that tells no level
 constexpr double kTooMuch = 1.2;
 constexpr double kSteep = 4.0;
 
-double through_share(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, const Pose2& pose,
-                     std::size_t first, std::size_t stride, double slack_m) {
-  const Eigen::Matrix2d rotation = pose.rotation();
-  const auto share = [&](const auto& index) {
-    double through = 0.0;
-    double all = 0.0;
-    for (std::size_t i = first; i < points.size(); i += stride, all += 1.0) {
-      const double length_m = points[i].norm();
-      const Eigen::Vector2d way = rotation * points[i] / std::max(length_m, 1e-9);
-      through += passes_through(index, pose.translation(), way, length_m, slack_m) ? 1.0 : 0.0;
-    }
-    return all > 0.0 ? through / all : 0.0;
-  };
-  return std::visit(share, map);
-}
-
 }  // namespace
 
 void Trust::begin() { seen_ = 0; }
@@ -48,9 +31,8 @@ void Trust::see(std::span<const Eigen::Vector2d> points, const SurfaceMap& map, 
   // 1. Other beams than the last time.
   const std::size_t beams = seen_ == 0 ? kFirstBeams : kBeams;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / beams);
-  constexpr std::size_t kStep = 7;  // prime to most strides
   const double through =
-      through_share(points, map, match.map_from_laser, seen_ * kStep % stride, stride, slack_m);
+      see_through_share(points, map, match.map_from_laser, stride, slack_m, seen_ % stride);
   const double off = match.misfit - (1.0 - match.on_map_ratio);
   const double blur = off / std::max(match.on_map_ratio, kLeastExplained);
   // 2. What they say, beside what was said of late.

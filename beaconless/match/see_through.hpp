@@ -42,8 +42,10 @@ bool passes_through(const Index& map, const Eigen::Vector2d& from, const Eigen::
 /// The share of a scan's beams that would have to pass through a wall of the map: hardly any where the laser
 /// truly is, whatever stands around it, since people and new things only shorten beams.
 ///
-/// In: ends of beams in the laser frame, every `stride`-th of which is followed. 0 for no points.
+/// In: ends of beams in the laser frame, from `first` on every `stride`-th of which is followed; `slack_m` as
+/// above. 0 for no points.
 double see_through_share(std::span<const Eigen::Vector2d> points, const SurfaceMap& map,
-                         const Pose2& map_from_laser, std::size_t stride);
+                         const Pose2& map_from_laser, std::size_t stride, double slack_m = 0.0,
+                         std::size_t first = 0);
 
 }  // namespace beaconless

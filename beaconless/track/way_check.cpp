@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/track/way_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace beaconless {

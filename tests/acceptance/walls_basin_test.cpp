@@ -117,7 +117,7 @@ TEST_P(RackHallBasin, OneScanTellsTheWayBack) {
 INSTANTIATE_TEST_SUITE_P(Offsets, RackHallBasin,
                          testing::Values(Offset{"half_a_metre_10_degrees", 0.5, 10.0, 0.95, 1000}), name_of);
 
-/// Does not hold yet for 13 of 500: among racks every aisle explains half of a scan and more, and the front
+/// Does not hold yet for 2 of 500: among racks every aisle explains half of a scan and more, and the front
 /// of a rack is open enough to be looked through.
 INSTANTIATE_TEST_SUITE_P(DISABLED_FarOffsets, RackHallBasin, testing::Values(kFar), name_of);
 
