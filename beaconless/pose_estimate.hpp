@@ -51,9 +51,9 @@ struct PoseEstimate {
   std::string_view reason = "no start pose was given";  ///< why the status is not ok; static text, "" when ok
   double quality = 0.0;  ///< 0 … 1: how far the pose deserves trust; one that is ok at 0.5 or more does
 
-  /// Protection level: the true pose is meant to be within these but for one scan in ten thousand (how far that
-  /// holds: docs/concepts/protection.md). At most kUnbounded and
-  /// pi, which say that nothing bounds the error.
+  /// Protection level: the true pose is meant to be within these but for one scan in ten thousand (how far
+  /// that holds: docs/concepts/protection.md). At most kUnbounded and pi, which say that nothing bounds the
+  /// error.
   static constexpr double kUnbounded_m = 1e3;
   double protection_m = kUnbounded_m;
   double protection_rad = kPi;
