@@ -52,6 +52,7 @@ constexpr std::string_view kRivalled = "another place nearby fits the scan nearl
 constexpr std::string_view kSurprising = "the pose has just jumped; more scans must agree";
 constexpr std::string_view kFarFromStart = "the scan fits only far from the start pose";
 constexpr double kThroughWalls_share = 0.2;
+constexpr double kTrusted = 0.5;      // quality
 constexpr double kUncorrected = 0.4;  // most quality of a pose that no fit has corrected
 constexpr std::string_view kThroughWalls = "many beams would have to pass through walls of the map";
 
@@ -299,9 +300,9 @@ PoseEstimate TrackingLocalizer::track(const Scan& scan) {
   std::string_view doubt = is_other ? std::string_view{} : reason_against(match, prediction);
   if (doubt.empty() && whole_scan && whole_scan->misfit < match.misfit - kClearlyBetter)
     doubt = "the whole scan fits another place far better";
-  const PoseEstimate estimate = doubt.empty() ? accept(match, prediction, scan, caveat_of(match, is_other))
-                                : whole_scan  ? stand_in(*whole_scan, prediction, scan)
-                                              : coast(prediction, scan.stamp(), doubt);
+  PoseEstimate estimate = doubt.empty() ? accept(match, prediction, scan, caveat_of(match, is_other))
+                          : whole_scan  ? stand_in(*whole_scan, prediction, scan)
+                                        : coast(prediction, scan.stamp(), doubt);
   first_scan_ = false;
   last_scan_ = scan.stamp();
   was_placed_ = was_placed_ || estimate.ok();
@@ -549,6 +550,11 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   protect(estimate, match, laser_from_base_, config_.walls.protection.risk, is_through_walls_);
   estimate.quality =
       trust_.quality(matcher_->tells_protection() ? std::optional(estimate.protection_m) : std::nullopt);
+  // A level takes the place for granted; where it is not, nothing bounds the error.
+  if (estimate.quality < kTrusted) {
+    estimate.protection_m = PoseEstimate::kUnbounded_m;
+    estimate.protection_rad = kPi;
+  }
   // 4. What carries over to the next scan.
   const auto seen = motion_.told_by(scan.stamp(), estimate.map_from_base, compared);
   if (seen && last_scan_ && caveat.empty()) odometry_.compare(*last_scan_, scan.stamp(), *seen);
