@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "beaconless/geometry/angle.hpp"
 #include "beaconless/geometry/pose2.hpp"
 
 namespace beaconless {
@@ -21,6 +22,11 @@ inline Eigen::Matrix3d turn_of(const Pose2& pose) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = pose.rotation();
   return turn;
+}
+
+/// From one pose to another as (x, y, theta) along the axes that both are given in, the shorter way round.
+inline Eigen::Vector3d way_between(const Pose2& from, const Pose2& to) {
+  return {to.x_m - from.x_m, to.y_m - from.y_m, wrap_angle(to.theta_rad - from.theta_rad)};
 }
 
 /// A covariance without what rounding made of its symmetry.

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "beaconless/geometry/pose_covariance.hpp"
+#include "beaconless/localize/doubts.hpp"
 #include "beaconless/match/map_fit.hpp"
 #include "beaconless/scan/deskew.hpp"
 
@@ -30,9 +31,6 @@ constexpr std::size_t kChecks = 240;
 constexpr std::size_t kFollowed = 180;  // points by which motion is followed without wheels
 constexpr std::size_t kMostCandidates = 16;
 constexpr double kLeastWeight = 0.01;  // of a candidate
-
-const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
-const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
 
 double square(double value) { return value * value; }
 
@@ -260,7 +258,6 @@ std::optional<AmclLocalizer::Belief> AmclLocalizer::if_agreed(const MatchResult&
 PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   // 1. The pose, and whether the scan fits there.
   PoseEstimate estimate;
-  estimate.reason = "";
   estimate.stamp = scan.stamp();
   estimate.map_from_base = belief.map_from_base;
   estimate.covariance = belief.covariance;
@@ -270,11 +267,7 @@ PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   estimate.status = health_.judge(scan.stamp(), explained);
   // Particles that were spread anywhere may have settled on one of two like places.
   estimate.quality = std::min(is_placed_ ? 1.0 : kUnplaced, explained * heaviest_);
-  if (estimate.status == Status::lost)
-    estimate.reason = "the scan does not fit the map here";
-  else if (estimate.status == Status::degraded)
-    estimate.reason = was_lost ? "a place that fits was found; more scans must agree"
-                               : "less of the scan lies on the map than is usual";
+  estimate.reason = reason_of(estimate.status, was_lost);
   // 2. Whether the cloud agrees on one place, for some scans after a start anywhere.
   const bool agrees = heaviest_ >= kOnePlace && !is_wide(now_.covariance) && estimate.ok();
   agreed_ = agrees ? agreed_ + 1 : 0;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "beaconless/geometry/pose_covariance.hpp"
+
 namespace beaconless {
 namespace {
 
@@ -54,9 +56,7 @@ void Rivals::drop_known(const Pose2& taken) {
 Eigen::Matrix3d Rivals::covariance(const Pose2& map_from_base, const Pose2& laser_from_base) const {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Place& place : places_) {
-    const Pose2 other = place.map_from_laser * laser_from_base;
-    const Eigen::Vector3d way(other.x_m - map_from_base.x_m, other.y_m - map_from_base.y_m,
-                              wrap_angle(other.theta_rad - map_from_base.theta_rad));
+    const Eigen::Vector3d way = way_between(map_from_base, place.map_from_laser * laser_from_base);
     sum += way * way.transpose();
   }
   return sum;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "beaconless/geometry/pose_covariance.hpp"
+#include "beaconless/localize/doubts.hpp"
 #include "beaconless/localize/protect.hpp"
 #include "beaconless/match/sweep_twist.hpp"
 #include "beaconless/scan/deskew.hpp"
@@ -23,8 +24,6 @@ constexpr double kJump_rad = radians(8.0);
 constexpr double kSurprise_sigma = 4.0;
 constexpr double kSurprise_m = 0.06;
 constexpr double kSurprise_rad = radians(2.0);
-constexpr int kFewAgree = 3;      // scans of a slow scanner that agree on a place suffice …
-constexpr double kAgree_s = 1.0;  // … over so long
 constexpr int kSurprised = 5;     // scans
 constexpr double kStart_m = 1.8;  // what a start pose may be off …
 constexpr double kStart_rad = radians(60.0);
@@ -43,10 +42,6 @@ constexpr double kUnsure_m =
     1e-3;  // … and what it is uncertain by less than both need not be told by the sweep
 constexpr double kUnsure_rad = 1e-3;
 
-/// What a fit that is not to be trusted may be off by: a cell or two, or the whole window that is searched.
-const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.0025).asDiagonal();
-const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
-
 constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
 
 constexpr std::string_view kSurprising = "the pose has just jumped; more scans must agree";
@@ -61,16 +56,6 @@ constexpr std::string_view kOpenDirection =
 
 constexpr std::string_view kCovered =
     "the scanner seems to be covered: hardly a beam comes from further than half a metre";
-constexpr std::string_view kFound = "a place that fits was found; more scans must agree";
-constexpr std::string_view kSeveral = "several places of the map fit what was seen; a drive tells which";
-constexpr std::string_view kOpenPlace =
-    "the place that fits leaves a direction open, or others are not far behind; a drive tells more";
-
-std::string_view reason_of(Status status, bool was_lost) {
-  if (status == Status::ok) return "";
-  if (status == Status::lost) return "the scan does not fit the map here";
-  return was_lost ? kFound : "less of the scan lies on the map than is usual";
-}
 
 /// Whether hardly a beam comes from far away. Mostly the first few tell.
 bool is_covered(std::span<const Eigen::Vector2d> points, std::size_t beams) {
@@ -100,7 +85,7 @@ TrackingLocalizer::TrackingLocalizer(const LocalizerConfig& config, std::shared_
       laser_from_base_(config.base_from_laser.inverse()),
       motion_(config.motion),
       odometry_(config.odometry),
-      finder_(config.places, map_, config.icp, config.walls),
+      relocalizer_(config.places, map_, config.icp, config.walls, laser_from_base_),
       health_(config.health) {}
 
 void TrackingLocalizer::start_at(const Pose2& map_from_base) {
@@ -116,8 +101,7 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   started_ = true;
   is_anywhere_ = false;
   is_new_place_ = false;
-  candidates_.clear();
-  is_through_walls_ = false;
+  relocalizer_.forget();
   explained_ = 0.0;
   lost_scans_ = 0;
   surprised_scans_ = 0;
@@ -163,25 +147,15 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   // 3. One that is no longer there may be anywhere.
   const bool is_adrift = health_.lost() && health_.is_weak(explained_) && !is_covered_;
   const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_);
-  if (config_.relocalize && (is_adrift || (has_parted && !is_only_here(*scan))))
+  if (config_.relocalize &&
+      (is_adrift || (has_parted && !relocalizer_.is_only_at(last_.map_from_base, scan->stamp(), points_))))
     search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
   return last_;
 }
 
 void TrackingLocalizer::search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans) {
   is_anywhere_ = true;
-  agreeing_scans_ = agreeing_scans;
-  agreed_scans_ = 0;
-  candidates_.clear();
-  finder_.begin(box);
-}
-
-bool TrackingLocalizer::is_only_here(const Scan& scan) {
-  finder_.begin();
-  if (finder_.see(scan.stamp(), points_, std::nullopt) != PlaceFinder::Verdict::one) return false;
-  const Pose2 here = last_.map_from_base * config_.base_from_laser;
-  const Pose2& there = finder_.places().front().map_from_laser;
-  return distance_m(here, there) < kJump_m && heading_difference_rad(here, there) < kJump_rad;
+  relocalizer_.begin(box, agreeing_scans);
 }
 
 std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
@@ -196,60 +170,16 @@ std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
   }
   observe(scan, standing.map_from_base * config_.base_from_laser, kLostCovariance, standing);
   last_scan_ = scan.stamp();
-  if (is_covered_) return nowhere(scan.stamp(), kCovered);
-  // 2. Where that fits.
-  const PlaceFinder::Verdict verdict = finder_.see(scan.stamp(), points_, moved);
-  list_candidates();
-  // 3. It is there, once enough scans agree on one place.
-  if (verdict != PlaceFinder::Verdict::one) agreed_scans_ = 0;
-  if (verdict == PlaceFinder::Verdict::one && agreed_scans_++ == 0) agreed_since_ = scan.stamp();
-  const bool is_long = agreed_scans_ >= kFewAgree && seconds_between(agreed_since_, scan.stamp()) >= kAgree_s;
-  if (agreed_scans_ < agreeing_scans_ && !is_long) return searching(scan, verdict);
+  // 2. What that tells of where it is.
+  std::optional<PoseEstimate> estimate =
+      is_covered_ ? relocalizer_.nowhere(scan.stamp(), last_.map_from_base, kCovered)
+                  : relocalizer_.see(scan.stamp(), points_, moved, last_.map_from_base);
+  if (estimate) return estimate;
+  // 3. It is there.
   const bool was_placed = was_placed_;
-  start_at(finder_.places().front().map_from_laser * laser_from_base_);
+  start_at(relocalizer_.found());
   is_new_place_ = was_placed;
   return std::nullopt;
-}
-
-void TrackingLocalizer::list_candidates() {
-  candidates_.clear();
-  for (const PlaceFinder::Place& place : finder_.likely())
-    candidates_.push_back({place.map_from_laser * laser_from_base_, place.now.on_map, finder_.weight(place)});
-}
-
-PoseEstimate TrackingLocalizer::nowhere(Stamp stamp, std::string_view reason) {
-  candidates_.clear();
-  agreed_scans_ = 0;
-  PoseEstimate estimate;
-  estimate.stamp = stamp;
-  estimate.map_from_base = last_.map_from_base;
-  estimate.status = Status::lost;
-  estimate.reason = reason;
-  return estimate;
-}
-
-PoseEstimate TrackingLocalizer::searching(const Scan& scan, PlaceFinder::Verdict verdict) {
-  if (verdict == PlaceFinder::Verdict::nothing)
-    return nowhere(scan.stamp(), "the scan fits nowhere where it was looked for");
-  PoseEstimate estimate;
-  estimate.stamp = scan.stamp();
-  // The likeliest place, and in the covariance that it may be another.
-  estimate.status = Status::relocalizing;
-  estimate.reason = verdict == PlaceFinder::Verdict::one ? kFound
-                    : candidates_.size() > 1             ? kSeveral
-                                                         : kOpenPlace;
-  const PlaceFinder::Place& best = finder_.places().front();
-  estimate.map_from_base = candidates_.front().map_from_base;
-  estimate.covariance =
-      moved_covariance(best.covariance, best.map_from_laser, laser_from_base_) + kLostCovariance;
-  for (const PoseCandidate& candidate : candidates_) {
-    const Pose2& other = candidate.map_from_base;
-    const Eigen::Vector3d way(other.x_m - estimate.map_from_base.x_m, other.y_m - estimate.map_from_base.y_m,
-                              heading_difference_rad(other, estimate.map_from_base));
-    estimate.covariance += candidate.weight * way * way.transpose();
-  }
-  estimate.covariance = symmetric(estimate.covariance);
-  return estimate;
 }
 
 PoseEstimate TrackingLocalizer::track(const Scan& scan) {
@@ -326,7 +256,7 @@ std::string_view TrackingLocalizer::reason_to_coast(const MatchResult& match,
   if (!health_.at_home() && health_.is_weak(match.on_map_ratio))
     return first_scan_ || !health_.lost() ? "the scan fits nowhere around the start pose"
                                           : "the scan fits nowhere around the last trusted pose";
-  if (first_scan_ && is_far(match, prediction)) return kFarFromStart;
+  if (first_scan_ && is_further(match, prediction, {0.0, kStart_m, kStart_rad})) return kFarFromStart;
   if (first_scan_ || health_.lost()) return {};
   if (is_jump(match, prediction)) return "the scan fits nowhere near the predicted pose";
   return {};
@@ -436,25 +366,17 @@ MapFit TrackingLocalizer::fit_at(const Prediction& prediction) const {
   return fit_to_map(points_, *map_, prediction.map_from_base * config_.base_from_laser, config_.icp.on_map_m);
 }
 
+bool TrackingLocalizer::is_further(const MatchResult& match, const Prediction& prediction,
+                                   const Tolerance& than) const {
+  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
+  const double slack_m = than.sigmas * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
+  const double slack_rad = than.sigmas * std::sqrt(prediction.covariance(2, 2));
+  return std::hypot(correction.x_m, correction.y_m) > std::max(than.position_m, slack_m) ||
+         std::abs(correction.theta_rad) > std::max(than.heading_rad, slack_rad);
+}
+
 bool TrackingLocalizer::is_jump(const MatchResult& match, const Prediction& prediction) const {
-  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
-  const double slack_m = kJumpSigma * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
-  const double slack_rad = kJumpSigma * std::sqrt(prediction.covariance(2, 2));
-  return std::hypot(correction.x_m, correction.y_m) > std::max(kJump_m, slack_m) ||
-         std::abs(correction.theta_rad) > std::max(kJump_rad, slack_rad);
-}
-
-bool TrackingLocalizer::is_far(const MatchResult& match, const Prediction& prediction) const {
-  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
-  return correction.translation().norm() > kStart_m || std::abs(correction.theta_rad) > kStart_rad;
-}
-
-bool TrackingLocalizer::is_surprise(const MatchResult& match, const Prediction& prediction) const {
-  const Pose2 correction = prediction.map_from_base.inverse() * match.map_from_laser * laser_from_base_;
-  const double slack_m = kSurprise_sigma * std::sqrt(prediction.covariance.topLeftCorner<2, 2>().trace());
-  const double slack_rad = kSurprise_sigma * std::sqrt(prediction.covariance(2, 2));
-  return correction.translation().norm() > std::max(kSurprise_m, slack_m) ||
-         std::abs(correction.theta_rad) > std::max(kSurprise_rad, slack_rad);
+  return is_further(match, prediction, {kJumpSigma, kJump_m, kJump_rad});
 }
 
 std::span<const StartPose> TrackingLocalizer::starts_around(const Prediction& prediction) {
@@ -527,7 +449,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   const Eigen::Matrix3d swept = sweep_covariance(estimate, prediction, scan);
   // 3. What rests on the prediction, wholly or along some direction, is degraded and tells no velocity.
   const bool is_open = match.rank < 3;
-  if (!first_scan_ && is_surprise(match, prediction)) {
+  if (!first_scan_ && is_further(match, prediction, {kSurprise_sigma, kSurprise_m, kSurprise_rad})) {
     estimate.jumped = true;
     surprised_scans_ = kSurprised;
   } else if (surprised_scans_ > 0) {

@@ -9,7 +9,7 @@
 
 #include "beaconless/localize/localizer.hpp"
 #include "beaconless/localize/localizer_config.hpp"
-#include "beaconless/localize/place_finder.hpp"
+#include "beaconless/localize/relocalizer.hpp"
 #include "beaconless/localize/rivals.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
 #include "beaconless/localize/trust.hpp"
@@ -38,17 +38,20 @@ class TrackingLocalizer final : public Localizer {
 
   void start_at(const Pose2& map_from_base) override;
   void start_anywhere(const std::optional<SearchRegion>& within) override;
-  std::span<const PoseCandidate> candidates() const override { return candidates_; }
+  std::span<const PoseCandidate> candidates() const override { return relocalizer_.candidates(); }
   PoseEstimate update(const Event& event) override;
 
  private:
+  /// How far a fit may be from the prediction: the larger of a distance and some of its standard deviations.
+  struct Tolerance {
+    double sigmas = 0.0;
+    double position_m = 0.0;
+    double heading_rad = 0.0;
+  };
+
   PoseEstimate track(const Scan& scan);
   std::optional<PoseEstimate> find(const Scan& scan);
-  bool is_only_here(const Scan& scan);
   void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans);
-  PoseEstimate nowhere(Stamp stamp, std::string_view reason);
-  PoseEstimate searching(const Scan& scan, PlaceFinder::Verdict verdict);
-  void list_candidates();
   void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,
                const Prediction& prediction);
   MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
@@ -61,9 +64,8 @@ class TrackingLocalizer final : public Localizer {
                                    const Scan& scan) const;
   MatchResult fit_from(const Pose2& guess);
   MapFit fit_at(const Prediction& prediction) const;
+  bool is_further(const MatchResult& match, const Prediction& prediction, const Tolerance& than) const;
   bool is_jump(const MatchResult& match, const Prediction& prediction) const;
-  bool is_surprise(const MatchResult& match, const Prediction& prediction) const;
-  bool is_far(const MatchResult& match, const Prediction& prediction) const;
   bool is_worth_searching(const MatchResult& match, const Prediction& prediction);
   std::string_view reason_to_coast(const MatchResult& match, const Prediction& prediction) const;
   std::string_view reason_against_features(const MatchResult& match, const Prediction& prediction) const;
@@ -87,7 +89,7 @@ class TrackingLocalizer final : public Localizer {
   OdometryTrack odometry_;
   WayCheck way_;
   Rivals rivals_;
-  PlaceFinder finder_;
+  Relocalizer relocalizer_;
   Trust trust_;
   std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
@@ -95,7 +97,6 @@ class TrackingLocalizer final : public Localizer {
   IcpScratch scratch_;
   LocalSearchScratch search_scratch_;
   std::vector<StartPose> starts_;
-  std::vector<PoseCandidate> candidates_;
   std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
   std::vector<double> times_s_;          // of the points, after the stamp
   PoseEstimate last_;
@@ -105,9 +106,6 @@ class TrackingLocalizer final : public Localizer {
   bool is_anywhere_ = false;   // nothing is believed of the pose
   bool is_new_place_ = false;  // it was found elsewhere than where it was thought to be
   bool was_placed_ = false;    // something was, before that
-  int agreeing_scans_ = 1;     // that it takes to be found
-  int agreed_scans_ = 0;
-  Stamp agreed_since_;
   bool first_scan_ = true;
   bool is_covered_ = false;
   bool is_through_walls_ = false;  // beams pass through walls where the robot is thought to be
