@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "beaconless/match/sidesteps.hpp"
+
 namespace beaconless {
 namespace {
 
@@ -14,12 +16,15 @@ constexpr double kSame_m = 0.3;  // places nearer than this, and turned by less,
 constexpr double kSame_rad = radians(5.0);
 constexpr double kStray_m = 0.3;  // a fit that strays further from its guess is another place
 constexpr double kStray_rad = radians(10.0);
-constexpr double kNear_m = 0.1;  // how far ICP may be from where the walls are
-constexpr double kHeld_m = 0.3;  // a place less certain than this is not held
-constexpr double kBehind = 1.0;  // a place so far behind the best is given up
+constexpr double kNear_m = 0.1;     // how far ICP may be from where the walls are
+constexpr double kHeld_m = 0.3;     // a place less certain than this is not held
+constexpr double kBehind = 1.0;     // a place so far behind the best is given up …
+constexpr double kFarBehind = 1.5;  // … and so many margins
 constexpr double kMostThrough = 0.25;
-constexpr double kFine_m = 0.05;           // the margin is for maps that are off by this
-constexpr std::size_t kViewsOfCoarse = 3;  // that it takes on others
+constexpr double kPromising = 0.05;  // in cost: starts this near to the best are worth a second look …
+constexpr double kBroken = 0.15;     // … where the fit explains so much less than the search promised
+constexpr double kFine_m = 0.05;     // the margin is for maps that are off by this
+constexpr std::size_t kViewsOfCoarse = 6;  // that it takes on others
 constexpr double kCoarse = 1.5;            // … and grows with so many powers of what others are off by more
 constexpr double kBeamsThatCount = 20.0;   // of a scan, the others say what these do
 
@@ -66,17 +71,22 @@ void PlaceFinder::begin(const FloorPlan::Bounds& box) {
   views_.clear();
   looked_.reset();
   since_view_ = Pose2{};
-  last_moved_ = Pose2{};
+  moved_.reset();
 }
 
 void PlaceFinder::begin() { begin(bounds_of(*map_)); }
+
+void PlaceFinder::begin_again() { begin(FloorPlan::Bounds(box_)); }
 
 PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector2d> points,
                                       const std::optional<Pose2>& moved) {
   points_ = points;
   // 1. The places so far, from where this scan was taken.
-  const Pose2 way = moved.value_or(last_moved_);
-  if (!places_.empty()) follow(way);
+  const Pose2 way = moved.value_or(moved_.value_or(Pose2{}));
+  if (places_.empty())
+    moved_.reset();
+  else
+    follow(way);
   // 2. All that fit, with every view; where nothing does, now and then.
   const bool is_hopeless = places_.empty() || verdict() == Verdict::nothing;
   const bool is_due = !looked_ || std::abs(seconds_between(*looked_, stamp)) >= config_.every_s;
@@ -109,8 +119,8 @@ void PlaceFinder::follow(const Pose2& moved) {
     place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
     place.log_likelihoods.back() = (scans * seen + place.now.log_likelihood) / (scans + 1.0);
   }
-  last_moved_ = before.inverse() * places_.front().map_from_laser;
-  since_view_ = since_view_ * last_moved_;
+  moved_ = before.inverse() * places_.front().map_from_laser;
+  since_view_ = since_view_ * *moved_;
 }
 
 void PlaceFinder::look() {
@@ -129,22 +139,34 @@ void PlaceFinder::look() {
   }
   // 2. Where it fits, and how all that was seen before fits there.
   search_everywhere(points_, nearness_, box_, config_.search, search_scratch_, starts_);
-  for (const StartPose& start : starts_) add(start.map_from_laser);
+  for (const StartPose& start : starts_) add(start, start.cost < starts_.front().cost + kPromising);
 }
 
-bool PlaceFinder::add(const Pose2& start) {
+bool PlaceFinder::add(const StartPose& start, bool is_promising) {
   Place place;
-  if (!fit(points_, start, place)) return false;
+  if (!fit(points_, start.map_from_laser, place)) return false;
   const bool is_known = std::any_of(places_.begin(), places_.end(), [&](const Place& known) {
     return is_same(known.map_from_laser, place.map_from_laser);
   });
   if (is_known) return false;
   place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
+  const double promised = 1.0 - start.cost;
+  if (is_promising && place.now.on_map < promised - kBroken) step_aside(place);
   place.log_likelihoods.assign(views_.size(), place.now.log_likelihood);
   place.scans_in_view = 1;
   weigh_past(place);
   places_.push_back(std::move(place));
   return true;
+}
+
+/// Out of a fit to the far faces of walls, if it is one.
+void PlaceFinder::step_aside(Place& place) const {
+  for (const Pose2& beside : sidesteps(place.map_from_laser)) {
+    Place other;
+    if (!fit(points_, beside, other) || is_astray(other.map_from_laser, beside)) continue;
+    other.now = weigh_scan(points_, *map_, other.map_from_laser, config_.sigma_m, kBeams);
+    if (other.now.log_likelihood > place.now.log_likelihood) place = other;
+  }
 }
 
 void PlaceFinder::weigh_past(Place& place) const {
@@ -182,9 +204,10 @@ void PlaceFinder::sort_out() {
   std::stable_sort(places_.begin(), places_.end(),
                    [](const Place& a, const Place& b) { return a.total > b.total; });
   // Places that have come together are one; what is far behind is none.
+  const double behind = places_.empty() ? 0.0 : std::max(kBehind, kFarBehind * needed_margin());
   std::vector<Place> left;
   for (Place& place : places_) {
-    const bool is_behind = !left.empty() && place.total < left.front().total - kBehind;
+    const bool is_behind = !left.empty() && place.total < left.front().total - behind;
     const bool is_known = std::any_of(left.begin(), left.end(), [&](const Place& better) {
       return is_same(better.map_from_laser, place.map_from_laser);
     });

@@ -66,12 +66,16 @@ class PlaceFinder {
 
   /// Forgets all; the laser is in this box.
   void begin(const FloorPlan::Bounds& box);
-  void begin();  ///< anywhere on the map
+  void begin();        ///< anywhere on the map
+  void begin_again();  ///< where it was before
 
   /// Takes in a scan. In: its points in the laser frame at the stamp; how the laser has moved since the last
   /// scan (last_from_now) where that is known. Cost: a search of the region (tens of ms) with each view, a
   /// fit a place with any other scan.
   Verdict see(Stamp stamp, std::span<const Eigen::Vector2d> points, const std::optional<Pose2>& moved);
+
+  /// How the laser moved between the last two scans (before_from_now), as the likeliest place tells it.
+  const std::optional<Pose2>& moved() const { return moved_; }
 
   /// What is left, likeliest first; after Verdict::nothing the best that there is, or none.
   std::span<const Place> places() const { return places_; }
@@ -89,7 +93,8 @@ class PlaceFinder {
   bool is_new_view() const;
   void look();
   void follow(const Pose2& moved);
-  bool add(const Pose2& start);
+  bool add(const StartPose& start, bool is_promising);
+  void step_aside(Place& place) const;
   void weigh_past(Place& place) const;
   bool fit(std::span<const Eigen::Vector2d> points, const Pose2& guess, Place& place) const;
   void sort_out();
@@ -106,7 +111,7 @@ class PlaceFinder {
   std::vector<Place> places_;
   std::vector<View> views_;
   Pose2 since_view_;  // view's laser frame from the laser's now
-  Pose2 last_moved_;
+  std::optional<Pose2> moved_;
   std::optional<Stamp> looked_;
   mutable GlobalSearchScratch search_scratch_;
   mutable IcpScratch icp_scratch_;

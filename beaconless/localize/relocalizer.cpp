@@ -8,7 +8,7 @@ namespace beaconless {
 namespace {
 
 constexpr int kFewAgree = 3;      // scans of a slow scanner that agree on a place suffice …
-constexpr double kAgree_s = 1.0;  // … over so long
+constexpr double kAgree_s = 0.6;  // … over so long
 constexpr double kHere_m = 0.25;  // a place this near is where the robot is thought to be
 constexpr double kHere_rad = radians(8.0);
 
@@ -18,24 +18,24 @@ constexpr std::string_view kOpenPlace =
 
 }  // namespace
 
-Relocalizer::Relocalizer(const PlacesConfig& config, const std::shared_ptr<const SurfaceMap>& map,
-                         const IcpConfig& icp, const WallsConfig& walls, const Pose2& laser_from_base)
-    : laser_from_base_(laser_from_base), finder_(config, map, icp, walls) {}
-
 void Relocalizer::begin(const FloorPlan::Bounds& box, int agreeing_scans) {
+  go_on(agreeing_scans);
+  finder_->begin(box);
+}
+
+void Relocalizer::go_on(int agreeing_scans) {
   agreeing_scans_ = agreeing_scans;
   agreed_scans_ = 0;
   candidates_.clear();
-  finder_.begin(box);
 }
 
 std::optional<PoseEstimate> Relocalizer::see(Stamp stamp, std::span<const Eigen::Vector2d> points,
                                              const std::optional<Pose2>& moved, const Pose2& believed) {
   // 1. Where the scan fits.
-  const PlaceFinder::Verdict verdict = finder_.see(stamp, points, moved);
+  const PlaceFinder::Verdict verdict = finder_->see(stamp, points, moved);
   candidates_.clear();
-  for (const PlaceFinder::Place& place : finder_.likely())
-    candidates_.push_back({base_at(place), place.now.on_map, finder_.weight(place)});
+  for (const PlaceFinder::Place& place : finder_->likely())
+    candidates_.push_back({base_at(place), place.now.on_map, finder_->weight(place)});
   if (verdict == PlaceFinder::Verdict::nothing)
     return nowhere(stamp, believed, "the scan fits nowhere where it was looked for");
   // 2. It is there, once enough scans agree on one place.
@@ -65,7 +65,7 @@ PoseEstimate Relocalizer::searching(Stamp stamp, PlaceFinder::Verdict verdict) c
   estimate.reason = verdict == PlaceFinder::Verdict::one ? kFound
                     : candidates_.size() > 1             ? kSeveral
                                                          : kOpenPlace;
-  const PlaceFinder::Place& best = finder_.places().front();
+  const PlaceFinder::Place& best = finder_->places().front();
   estimate.map_from_base = candidates_.front().map_from_base;
   estimate.covariance =
       moved_covariance(best.covariance, best.map_from_laser, laser_from_base_) + kLostCovariance;
@@ -79,10 +79,10 @@ PoseEstimate Relocalizer::searching(Stamp stamp, PlaceFinder::Verdict verdict) c
 
 bool Relocalizer::is_only_at(const Pose2& map_from_base, Stamp stamp,
                              std::span<const Eigen::Vector2d> points) {
-  finder_.begin();
-  if (finder_.see(stamp, points, std::nullopt) != PlaceFinder::Verdict::one) return false;
+  finder_->begin();
+  if (finder_->see(stamp, points, std::nullopt) != PlaceFinder::Verdict::one) return false;
   const Pose2 here = map_from_base * laser_from_base_.inverse();
-  const Pose2& there = finder_.places().front().map_from_laser;
+  const Pose2& there = finder_->places().front().map_from_laser;
   return distance_m(here, there) < kHere_m && heading_difference_rad(here, there) < kHere_rad;
 }
 

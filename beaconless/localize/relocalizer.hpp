@@ -18,11 +18,14 @@ namespace beaconless {
 /// scans agree on it.
 class Relocalizer {
  public:
-  Relocalizer(const PlacesConfig& config, const std::shared_ptr<const SurfaceMap>& map, const IcpConfig& icp,
-              const WallsConfig& walls, const Pose2& laser_from_base);
+  /// `finder` outlives this.
+  Relocalizer(PlaceFinder& finder, const Pose2& laser_from_base)
+      : laser_from_base_(laser_from_base), finder_(&finder) {}
 
   /// Forgets all; the laser is in this box, and so many scans in a row must agree, or a few over a second.
   void begin(const FloorPlan::Bounds& box, int agreeing_scans);
+  /// The same, from what the finder knows.
+  void go_on(int agreeing_scans);
   void forget() { candidates_.clear(); }
 
   /// Takes in a scan: what is known of the pose, or nothing once it is found.
@@ -31,7 +34,7 @@ class Relocalizer {
   /// the base was believed to be last, which stands in while nothing fits. Cost: see PlaceFinder::see().
   std::optional<PoseEstimate> see(Stamp stamp, std::span<const Eigen::Vector2d> points,
                                   const std::optional<Pose2>& moved, const Pose2& believed);
-  Pose2 found() const { return base_at(finder_.places().front()); }  ///< map_from_base
+  Pose2 found() const { return base_at(finder_->places().front()); }  ///< map_from_base
 
   /// The estimate where a scan tells nothing.
   PoseEstimate nowhere(Stamp stamp, const Pose2& believed, std::string_view reason);
@@ -47,7 +50,7 @@ class Relocalizer {
   PoseEstimate searching(Stamp stamp, PlaceFinder::Verdict verdict) const;
 
   Pose2 laser_from_base_;
-  PlaceFinder finder_;
+  PlaceFinder* finder_;
   std::vector<PoseCandidate> candidates_;
   int agreeing_scans_ = 1;
   int agreed_scans_ = 0;

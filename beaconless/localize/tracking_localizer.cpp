@@ -8,6 +8,7 @@
 #include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/localize/doubts.hpp"
 #include "beaconless/localize/protect.hpp"
+#include "beaconless/match/sidesteps.hpp"
 #include "beaconless/match/sweep_twist.hpp"
 #include "beaconless/scan/deskew.hpp"
 
@@ -44,10 +45,17 @@ constexpr double kUnsure_rad = 1e-3;
 
 constexpr std::string_view kRivalled = "another place nearby fits the scan nearly as well";
 
+constexpr std::string_view kLikeOthers = "another place of the map fits the scans about as well";
+constexpr std::string_view kElsewhere = "the scans fit another place of the map far better";
 constexpr std::string_view kSurprising = "the pose has just jumped; more scans must agree";
 constexpr std::string_view kFarFromStart = "the scan fits only far from the start pose";
+constexpr double kBent_m = 0.01;  // half a sweep that places beams this far off is seen anew
+constexpr double kBent_rad = radians(0.2);
 constexpr double kThroughWalls_share = 0.2;
+constexpr double kThrough_s = 2.0;    // of that put the place in doubt
+constexpr int kShaking = 2;           // and so do so many scans in a row that fit nowhere
 constexpr double kTrusted = 0.5;      // quality
+constexpr double kDoubted = 0.45;     // most quality of a pose whose place is in doubt
 constexpr double kUncorrected = 0.4;  // most quality of a pose that no fit has corrected
 constexpr std::string_view kThroughWalls = "many beams would have to pass through walls of the map";
 
@@ -85,7 +93,9 @@ TrackingLocalizer::TrackingLocalizer(const LocalizerConfig& config, std::shared_
       laser_from_base_(config.base_from_laser.inverse()),
       motion_(config.motion),
       odometry_(config.odometry),
-      relocalizer_(config.places, map_, config.icp, config.walls, laser_from_base_),
+      finder_(config.places, map_, config.icp, config.walls),
+      relocalizer_(finder_, laser_from_base_),
+      watch_(finder_),
       health_(config.health) {}
 
 void TrackingLocalizer::start_at(const Pose2& map_from_base) {
@@ -102,9 +112,14 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
   is_anywhere_ = false;
   is_new_place_ = false;
   relocalizer_.forget();
+  watch_.forget();
   explained_ = 0.0;
   lost_scans_ = 0;
   surprised_scans_ = 0;
+  coasted_scans_ = 0;
+  weak_scans_ = 0;
+  is_shaken_ = false;
+  through_since_.reset();
   way_.begin();
   first_scan_ = true;
 }
@@ -144,10 +159,12 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   last_ = track(*scan);
   last_.jumped = last_.jumped || is_found;
   is_new_place_ = false;
-  // 3. One that is no longer there may be anywhere.
+  // 3. Where that place is in doubt, it is held against all others.
+  hold_against_others(*scan);
+  // 4. One that is no longer there may be anywhere.
   const bool is_adrift = health_.lost() && health_.is_weak(explained_) && !is_covered_;
   const bool has_parted = way_.part(scan->stamp(), last_.map_from_base, odometry_);
-  if (config_.relocalize &&
+  if (config_.relocalize && !is_anywhere_ &&
       (is_adrift || (has_parted && !relocalizer_.is_only_at(last_.map_from_base, scan->stamp(), points_))))
     search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
   return last_;
@@ -155,29 +172,89 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
 
 void TrackingLocalizer::search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans) {
   is_anywhere_ = true;
+  found_motion_.reset();
   relocalizer_.begin(box, agreeing_scans);
 }
 
+void TrackingLocalizer::hold_against_others(const Scan& scan) {
+  // 1. Whether there is any doubt.
+  const bool is_fitted = coasted_scans_ == 0 && weak_scans_ == 0;
+  if ((coasted_scans_ > 0 && coasted_scans_ < kShaking) || is_covered_ || last_.status == Status::lost ||
+      !config_.relocalize)
+    return;
+  if (is_long_through_walls(scan.stamp())) is_shaken_ = true;
+  if (is_shaken_) watch_.doubt_followed(last_.map_from_base * config_.base_from_laser);
+  is_shaken_ = false;
+  if (!watch_.is_in_doubt()) return;
+  const PlaceWatch::Finding finding =
+      watch_.see(scan.stamp(), points_, last_.map_from_base * config_.base_from_laser, is_fitted);
+  if (finding == PlaceWatch::Finding::beyond_doubt) return;
+  // 2. What is in doubt is not to be relied on.
+  last_.quality = std::min(last_.quality, kDoubted);
+  last_.protection_m = PoseEstimate::kUnbounded_m;
+  last_.protection_rad = kPi;
+  // 3. What has its like in the map is degraded; what is elsewhere is lost.
+  if (finding == PlaceWatch::Finding::rivalled && last_.ok()) {
+    last_.status = Status::degraded;
+    last_.reason = kLikeOthers;
+  }
+  if (finding == PlaceWatch::Finding::elsewhere) {
+    last_.status = Status::lost;
+    last_.reason = kElsewhere;
+    last_.covariance += kLostCovariance;
+    is_anywhere_ = true;
+    relocalizer_.go_on(config_.health.found_after_scans);
+  }
+}
+
+/// Takes over how the robot moved since the scan before, from the places where it may be.
+void TrackingLocalizer::hear_search(const Scan& scan, const Stamp& before) {
+  found_motion_.reset();
+  const double dt = seconds_between(before, scan.stamp());
+  if (!finder_.moved() || !(dt > 0.0)) return;
+  const Twist2 way = (config_.base_from_laser * *finder_.moved() * laser_from_base_).log();
+  found_motion_ = ToldTwist{way.vector() / dt, Eigen::Matrix3d::Zero()};
+}
+
+bool TrackingLocalizer::is_bent_by(const ToldTwist& motion, const Scan& scan) const {
+  const Eigen::Vector3d skew = 0.5 * scan.sweep_time_s() * motion.per_s;
+  return is_swept(scan) && (skew.head<2>().norm() > kBent_m || std::abs(skew.z()) > kBent_rad);
+}
+
+bool TrackingLocalizer::is_long_through_walls(Stamp stamp) {
+  if (!is_through_walls_) through_since_.reset();
+  if (is_through_walls_ && !through_since_) through_since_ = stamp;
+  if (!through_since_ || seconds_between(*through_since_, stamp) < kThrough_s) return false;
+  through_since_ = stamp;
+  return true;
+}
+
 std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
-  // 1. How the robot moved, as far as the wheels tell, and what the laser saw.
+  // 1. How the robot moves, by the wheels or by the scans before, and what the laser saw. What was seen
+  //    before that was known is seen anew, if it makes a difference.
+  const auto told = last_scan_ ? odometry_.between(*last_scan_, scan.stamp()) : std::nullopt;
+  Prediction moving;
+  moving.map_from_base = last_.map_from_base;
+  moving.motion = told ? *told : found_motion_.value_or(ToldTwist{});
+  if (found_motion_ && was_seen_standing_ && is_bent_by(moving.motion, scan)) finder_.begin_again();
+  was_seen_standing_ = !told && !found_motion_;
   std::optional<Pose2> moved;
-  Prediction standing;
-  standing.map_from_base = last_.map_from_base;
-  if (const auto told = last_scan_ ? odometry_.between(*last_scan_, scan.stamp()) : std::nullopt) {
-    standing.motion = *told;
-    const Eigen::Vector3d way = told->per_s * seconds_between(*last_scan_, scan.stamp());
+  if (last_scan_ && !was_seen_standing_) {
+    const Eigen::Vector3d way = moving.motion.per_s * seconds_between(*last_scan_, scan.stamp());
     moved = laser_from_base_ * Pose2::exp(Twist2{way.x(), way.y(), way.z()}) * config_.base_from_laser;
   }
-  observe(scan, standing.map_from_base * config_.base_from_laser, kLostCovariance, standing);
-  last_scan_ = scan.stamp();
+  observe(scan, moving.map_from_base * config_.base_from_laser, kLostCovariance, moving);
+  const std::optional<Stamp> before = std::exchange(last_scan_, scan.stamp());
   // 2. What that tells of where it is.
   std::optional<PoseEstimate> estimate =
       is_covered_ ? relocalizer_.nowhere(scan.stamp(), last_.map_from_base, kCovered)
                   : relocalizer_.see(scan.stamp(), points_, moved, last_.map_from_base);
+  if (before && !is_covered_) hear_search(scan, *before);
   if (estimate) return estimate;
   // 3. It is there.
   const bool was_placed = was_placed_;
   start_at(relocalizer_.found());
+  watch_.doubt_found();
   is_new_place_ = was_placed;
   return std::nullopt;
 }
@@ -208,6 +285,10 @@ PoseEstimate TrackingLocalizer::track(const Scan& scan) {
     match = best_of(starts, match, prediction, [&](const Pose2& start) { return fit_from(start); });
     if (first_scan_ || !reason_against(match, prediction).empty())
       whole_scan = fit_whole_scan(starts, prediction);
+  } else if (is_through_walls_ && match.usable()) {
+    starts_.clear();
+    for (const Pose2& beside : sidesteps(match.map_from_laser)) starts_.push_back({beside});
+    match = best_of(starts_, match, prediction, [&](const Pose2& start) { return fit_from(start); });
   } else if (!match.usable() && is_vague(prediction)) {
     const StartPose there{guess};
     whole_scan = fit_whole_scan({&there, 1}, prediction);
@@ -444,6 +525,10 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   if (was_lost && is_jump(match, prediction)) health_.forget_found();
   estimate.status = health_.judge(scan.stamp(), match.on_map_ratio);
   estimate.reason = reason_of(estimate.status, was_lost);
+  is_shaken_ = is_shaken_ || was_lost || coasted_scans_ >= kShaking;
+  coasted_scans_ = 0;
+  if (estimate.status != Status::ok && weak_scans_++ == 0) is_shaken_ = true;
+  if (estimate.status == Status::ok) weak_scans_ = 0;
   const bool is_lost = was_lost || estimate.status == Status::lost;
   if (estimate.status != Status::ok) estimate.covariance += is_lost ? kLostCovariance : kWeakCovariance;
   const Eigen::Matrix3d swept = sweep_covariance(estimate, prediction, scan);
@@ -452,6 +537,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   if (!first_scan_ && is_further(match, prediction, {kSurprise_sigma, kSurprise_m, kSurprise_rad})) {
     estimate.jumped = true;
     surprised_scans_ = kSurprised;
+    is_shaken_ = true;
   } else if (surprised_scans_ > 0) {
     --surprised_scans_;
   }
@@ -510,6 +596,7 @@ PoseEstimate TrackingLocalizer::coast(const Prediction& prediction, Stamp stamp,
   // What is usual is not learnt from it: it may drift away little by little.
   const double explained = health_.lost() || is_covered_ ? 0.0 : fit_at(prediction).on_map_ratio;
   explained_ = explained;
+  is_shaken_ = ++coasted_scans_ == kShaking || is_shaken_;
   estimate.quality = kUncorrected * explained;
   if (health_.is_weak(explained)) health_.judge(stamp, explained);
   if (health_.lost()) estimate.covariance += kLostCovariance;

@@ -9,6 +9,7 @@
 
 #include "beaconless/localize/localizer.hpp"
 #include "beaconless/localize/localizer_config.hpp"
+#include "beaconless/localize/place_watch.hpp"
 #include "beaconless/localize/relocalizer.hpp"
 #include "beaconless/localize/rivals.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
@@ -35,6 +36,8 @@ class TrackingLocalizer final : public Localizer {
  public:
   TrackingLocalizer(const LocalizerConfig& config, std::shared_ptr<const SurfaceMap> map,
                     std::unique_ptr<ScanMatcher> matcher);
+  TrackingLocalizer(const TrackingLocalizer&) = delete;  // its parts share a finder
+  TrackingLocalizer& operator=(const TrackingLocalizer&) = delete;
 
   void start_at(const Pose2& map_from_base) override;
   void start_anywhere(const std::optional<SearchRegion>& within) override;
@@ -51,7 +54,11 @@ class TrackingLocalizer final : public Localizer {
 
   PoseEstimate track(const Scan& scan);
   std::optional<PoseEstimate> find(const Scan& scan);
+  void hear_search(const Scan& scan, const Stamp& before);
+  bool is_bent_by(const ToldTwist& motion, const Scan& scan) const;
   void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans);
+  void hold_against_others(const Scan& scan);
+  bool is_long_through_walls(Stamp stamp);
   void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,
                const Prediction& prediction);
   MatchResult fit_by_new_motion(const MatchResult& first, Prediction& prediction, const Scan& scan);
@@ -89,7 +96,9 @@ class TrackingLocalizer final : public Localizer {
   OdometryTrack odometry_;
   WayCheck way_;
   Rivals rivals_;
+  PlaceFinder finder_;
   Relocalizer relocalizer_;
+  PlaceWatch watch_;
   Trust trust_;
   std::optional<ToldTwist> bent_;  // what the sweep at hand told of the motion during it
   std::optional<Stamp> last_scan_;
@@ -103,13 +112,20 @@ class TrackingLocalizer final : public Localizer {
   double explained_ = 0.0;   // share of the last scan
   int surprised_scans_ = 0;  // that are still to agree after a jump
   bool started_ = false;
-  bool is_anywhere_ = false;   // nothing is believed of the pose
+  bool is_anywhere_ = false;        // nothing is believed of the pose
+  bool was_seen_standing_ = false;  // while looked for, as long as its motion is unknown
+  std::optional<ToldTwist>
+      found_motion_;           // how the robot moved between the last scans, while it is looked for
   bool is_new_place_ = false;  // it was found elsewhere than where it was thought to be
   bool was_placed_ = false;    // something was, before that
   bool first_scan_ = true;
   bool is_covered_ = false;
   bool is_through_walls_ = false;  // beams pass through walls where the robot is thought to be
   int lost_scans_ = 0;
+  int coasted_scans_ = 0;   // in a row
+  int weak_scans_ = 0;      // fits in a row that explain little
+  bool is_shaken_ = false;  // the robot may have been carried off since the last fit
+  std::optional<Stamp> through_since_;
 };
 
 }  // namespace beaconless

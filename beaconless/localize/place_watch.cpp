@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "beaconless/localize/place_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beaconless {
+namespace {
+
+constexpr double kEvery_s = 0.1;
+constexpr double kHere_m = 0.25;  // a place this near is where the robot is followed
+constexpr double kHere_rad = radians(8.0);
+constexpr double kReach_m = 3.0;    // a robot that was followed has not gone further unseen
+constexpr double kAround_m = 30.0;  // where is looked
+constexpr int kAbsent = 3;          // looks, before a place is given up
+
+}  // namespace
+
+void PlaceWatch::forget() { in_doubt_ = false; }
+
+void PlaceWatch::begin(double reach_m) {
+  in_doubt_ = true;
+  reach_m_ = reach_m;
+  seen_.reset();
+  was_.reset();
+  finding_ = Finding::in_doubt;
+  absent_ = 0;
+}
+
+void PlaceWatch::doubt_found() { begin(std::numeric_limits<double>::infinity()); }
+
+void PlaceWatch::doubt_followed(const Pose2& map_from_laser) {
+  if (in_doubt_) return;
+  const Eigen::Vector2d around(kAround_m, kAround_m);
+  const Eigen::Vector2d middle = map_from_laser.translation();
+  finder_->begin({middle - around, middle + around});
+  begin(kReach_m);
+}
+
+PlaceWatch::Finding PlaceWatch::see(Stamp stamp, std::span<const Eigen::Vector2d> points,
+                                    const Pose2& map_from_laser, bool is_fitted) {
+  if (!in_doubt_) return Finding::beyond_doubt;
+  if (seen_ && std::abs(seconds_between(*seen_, stamp)) < kEvery_s) return finding_;
+  // 1. Where else the scan fits, and how the places of before do.
+  const auto moved = was_ ? std::optional(was_->inverse() * map_from_laser) : std::nullopt;
+  const PlaceFinder::Verdict verdict = finder_->see(stamp, points, moved);
+  seen_ = stamp;
+  was_ = map_from_laser;
+  // 2. What that says of the place; a scan that fits nowhere says nothing.
+  if (verdict != PlaceFinder::Verdict::nothing) finding_ = judge(map_from_laser, is_fitted);
+  in_doubt_ = finding_ != Finding::beyond_doubt;
+  return finding_;
+}
+
+PlaceWatch::Finding PlaceWatch::judge(const Pose2& map_from_laser, bool is_fitted) {
+  const auto is_here = [&](const PlaceFinder::Place& place) {
+    return distance_m(place.map_from_laser, map_from_laser) < kHere_m &&
+           heading_difference_rad(place.map_from_laser, map_from_laser) < kHere_rad;
+  };
+  const auto likely = finder_->likely();
+  if (std::none_of(likely.begin(), likely.end(), is_here))
+    return is_fitted && ++absent_ < kAbsent ? Finding::rivalled : Finding::elsewhere;
+  absent_ = 0;
+  const bool is_rivalled = std::any_of(likely.begin(), likely.end(), [&](const PlaceFinder::Place& place) {
+    return !is_here(place) && distance_m(place.map_from_laser, map_from_laser) < reach_m_;
+  });
+  if (is_rivalled) return Finding::rivalled;
+  const bool was_followed = std::isfinite(reach_m_);
+  return was_followed || finder_->places().size() == 1 ? Finding::beyond_doubt : Finding::in_doubt;
+}
+
+}  // namespace beaconless
