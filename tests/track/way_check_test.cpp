@@ -58,6 +58,7 @@ TEST(WayCheck, WaysThatAgreeNeverPart) {
 TEST(WayCheck, WheelsThatSlipALittleNeverPart) {
   Way way;
   EXPECT_EQ(way.drive(40.0, {1.05, 0.0, 0.02}, kStraight), 0);
+  EXPECT_EQ(way.drive(20.0, {1.2, 0.0, 0.0}, kStraight), 0) << "far more than that is meant by parting";
 }
 
 TEST(WayCheck, WheelsThatAgreedAndThenPartAreToldOnce) {
@@ -106,10 +107,11 @@ TEST(WayCheck, ABeginningForgetsThatWheelsAgreed) {
 
 TEST(WayCheck, ABeginningForgetsTheStretchToo) {
   Way way;
-  way.drive(5.0, kStraight, kStraight);
+  way.drive(5.5, kStraight, kStraight);
   way.check.begin();
-  EXPECT_FALSE(way.part_after_silence(0.1, {30.0, 0.0, 0.0})) << "it was carried";
-  EXPECT_EQ(way.drive(5.0, kStraight, kStraight), 0);
+  EXPECT_EQ(way.drive(0.1, kStraight, {1.0, 4.0, 0.0}), 0) << "it was put elsewhere, not far";
+  EXPECT_EQ(way.drive(2.3, kStraight, kStraight), 0);
+  EXPECT_EQ(way.drive(5.0, kStraight, kStill), 1) << "that is no stretch in which they did not agree";
 }
 
 TEST(WayCheck, WhatHappensWhileWheelsAreSilentIsNotTheirs) {
