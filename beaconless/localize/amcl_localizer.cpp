@@ -236,10 +236,12 @@ void AmclLocalizer::list_candidates() {
   candidates_.clear();
   if (cloud_.is_one_place() && !is_searching_) return;
   double all = 0.0;
+  std::size_t looked_at = 0;
   for (const Cluster& cluster : cloud_.clusters()) {
-    if (candidates_.size() == kMostCandidates || (cluster.weight < kLeastWeight && !candidates_.empty()))
-      break;
-    candidates_.push_back({cluster.mean, explained_share(cluster.mean), cluster.weight});
+    if (looked_at++ == kMostCandidates || (cluster.weight < kLeastWeight && !candidates_.empty())) break;
+    const double score = explained_share(cluster.mean);
+    if (score == 0.0) continue;  // the mean of a wide cluster may be where nobody stands
+    candidates_.push_back({cluster.mean, score, cluster.weight});
     all += cluster.weight;
   }
   for (PoseCandidate& candidate : candidates_) candidate.weight /= all;

@@ -184,6 +184,39 @@ TEST(AmclLocalizer, AStartBeyondAllMapsGivesFiniteNumbers) {
   }
 }
 
+/// A wide cloud has clusters whose mean is in a wall, or where nothing that was seen is near.
+TEST(AmclLocalizer, APlaceThatExplainsNothingIsNoCandidate) {
+  const FloorPlan plan = test::niche_room();
+  for (const char* method : {"amcl", "amcl+walls"}) {
+    Drive drive(plan, plan, method, true);
+    drive.localizer->start_anywhere();
+    std::size_t candidates = 0;
+    for (int i = 0; i < 60; ++i) {
+      drive.circle();
+      double weights = 0.0;
+      for (const PoseCandidate& candidate : drive.localizer->candidates()) {
+        ASSERT_GT(candidate.score, 0.0) << i;
+        weights += candidate.weight;
+      }
+      candidates += drive.localizer->candidates().size();
+      if (weights > 0.0) {
+        ASSERT_NEAR(weights, 1.0, 1e-9) << i;
+      }
+    }
+    EXPECT_GT(candidates, 0U);
+  }
+}
+
+TEST(AmclLocalizer, WhereAScanHasNoHitsThereAreNoCandidates) {
+  const FloorPlan plan = test::niche_room();
+  const auto localizer = make_localizer({.method = "amcl"}, plan).value();
+  localizer->start_anywhere();
+  RawScan raw{.angle_min_rad = 0.0F, .angle_increment_rad = 0.01F, .range_max_m = 10.0F};
+  raw.ranges_m.assign(100, std::numeric_limits<float>::infinity());
+  EXPECT_FALSE(localizer->update(Scan::make(raw).value()).ok());
+  EXPECT_TRUE(localizer->candidates().empty());
+}
+
 TEST(AmclLocalizer, AScanWithoutHitsIsNotOk) {
   const FloorPlan plan = test::niche_room();
   const auto localizer = make_localizer({.method = "amcl"}, plan).value();
