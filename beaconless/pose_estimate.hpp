@@ -49,7 +49,10 @@ struct PoseEstimate {
   Eigen::Matrix3d covariance = Eigen::Vector3d(1e6, 1e6, 10.0).asDiagonal();
   Status status = Status::not_started;
   std::string_view reason = "no start pose was given";  ///< why the status is not ok; static text, "" when ok
-  double quality = 0.0;  ///< 0 … 1: how far the pose deserves trust; one that is ok at 0.5 or more does
+  double quality = 0.0;                                 ///< 0 … 1: how far the pose deserves trust
+
+  /// A pose that is ok at this quality or more deserves it.
+  static constexpr double kTrusted_quality = 0.5;
 
   /// Protection level: the true pose is meant to be within these but for one scan in ten thousand (how far
   /// that holds: docs/concepts/protection.md). At most kUnbounded and pi, which say that nothing bounds the
@@ -61,6 +64,7 @@ struct PoseEstimate {
   bool jumped = false;  ///< the pose does not follow from the one before by any motion: the belief changed
 
   bool ok() const { return status == Status::ok; }
+  bool is_trusted() const { return ok() && quality >= kTrusted_quality; }
 
   friend bool operator==(const PoseEstimate&, const PoseEstimate&) = default;
 };

@@ -8,6 +8,8 @@
 #include "beaconless/core/rng.hpp"
 #include "beaconless/io/map_io.hpp"
 
+#include "region_on_map.hpp"
+
 namespace beaconless::cli {
 namespace {
 
@@ -77,6 +79,9 @@ Result<LocalizeInputs> open_inputs(const Console& console, const LocalizeWords& 
   if (!recording) return recording.error();
   auto map = io::read_map(words.map);
   if (!map) return map.error();
+  if (const auto* anywhere = plan.start ? std::get_if<StartAnywhere>(&*plan.start) : nullptr;
+      anywhere != nullptr && anywhere->within)
+    if (auto on_map = check_on_map(words.start, *anywhere->within, *map); !on_map) return on_map.error();
   auto first = first_scan(*recording, plan.scans);
   if (!first) problems.report(console);
   if (!first) return first.error();

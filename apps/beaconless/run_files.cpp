@@ -14,6 +14,7 @@
 #include "beaconless/report/run_report.hpp"
 
 #include "run_summary.hpp"
+#include "start_words.hpp"
 #include "tables.hpp"
 
 namespace beaconless::cli {
@@ -122,8 +123,20 @@ void tell(const Console& console, const Run& run, const nlohmann::json& summary,
                             judgement->crb_ratio->position, judgement->crb_ratio->heading));
 }
 
+/// Of a robot that was never found: what may be wrong, by what was said of where it is.
+std::string never_found(const LocalizeWords& words) {
+  const std::string check = "the robot is lost, it was never found: check ";
+  const auto start = start_from_words(words.start);
+  if (!start || std::holds_alternative<StartHere>(*start))
+    return check + "the start pose, the map and --base-from-laser";
+  const auto* anywhere = std::get_if<StartAnywhere>(&*start);
+  if (anywhere != nullptr && anywhere->within)
+    return check + "the region, the map and --base-from-laser, or search everywhere by --start auto";
+  return check + "the map and --base-from-laser, drive on until more walls are in view, or give a start pose";
+}
+
 /// How it ended: the exit code, and a word about it where it is not good.
-int tell_end(const Console& console, const Run& run) {
+int tell_end(const Console& console, const LocalizeWords& words, const Run& run) {
   const auto& estimates = run.replay.estimates;
   const auto is_any = [&](Status status) {
     return std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.status == status; });
@@ -131,14 +144,14 @@ int tell_end(const Console& console, const Run& run) {
   const bool ever_found = is_any(Status::ok);
   const Status end = estimates.back().status;
   if (ever_found && (run.windows || (end != Status::lost && end != Status::relocalizing))) return exit_good;
-  console.warn(
-      run.windows                   ? "no window was found"
-      : end == Status::relocalizing ? "at the end of the recording several places fit: drive on, or say "
-                                      "where by --start near:x,y,radius"
-      : ever_found                  ? "the robot is lost at the end of the recording"
-      : is_any(Status::lost)
-          ? "the robot is lost, it was never found: check the start pose, the map and --base-from-laser"
-          : run.config.method + " found no pose itself: try another method, or other parameters");
+  console.warn(run.windows ? "no window was found"
+               : end == Status::relocalizing
+                   ? "at the end of the recording several places fit: drive on, or say "
+                     "where by --start near:x,y,radius"
+               : ever_found ? "the robot is lost at the end of the recording"
+               : is_any(Status::lost)
+                   ? never_found(words)
+                   : run.config.method + " found no pose itself: try another method, or other parameters");
   return exit_lost;
 }
 
@@ -170,7 +183,7 @@ int finish_run(const Console& console, const LocalizeWords& words, const Run& ru
     for (const std::string& path : *paths) console.say("  " + path);
   }
   console.result(summary);
-  return tell_end(console, run);
+  return tell_end(console, words, run);
 }
 
 }  // namespace beaconless::cli

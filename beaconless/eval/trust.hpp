@@ -11,7 +11,7 @@
 namespace beaconless::eval {
 
 /// A pose of this quality or more asks to be trusted.
-inline constexpr double kTrusted_quality = 0.5;
+inline constexpr double kTrusted_quality = PoseEstimate::kTrusted_quality;
 /// A pose that is further off than either of these did not deserve it.
 inline constexpr double kTrusted_m = 0.1;
 inline constexpr double kTrusted_deg = 2.0;

@@ -40,16 +40,16 @@ std::string body_of(const LastPose& pose) {
       to_string(pose.status), yaml_number(pose.quality), yaml_text(pose.map.name), hash_text(pose.map.hash));
 }
 
-/// Whether the file is the one that was written.
-Result<Done> check_whole(const std::string& path) {
-  const auto text = read_whole_file(path, kLongest_bytes);
+/// The bytes of a file that is the one that was written.
+Result<std::string> read_as_written(const std::string& path) {
+  auto text = read_whole_file(path, kLongest_bytes);
   if (!text) return Error{text.error().where, text.error().what, kRemedy};
   if (text->empty()) return Error{path, "the file is empty", kRemedy};
   const auto at = text->rfind(kChecksum);
   if (at == std::string::npos) return Error{path, "the file is cut short: its last line is missing", kRemedy};
   if (text->substr(at) != fmt::format("{}{}\n", kChecksum, hash_text(fnv1a(text->substr(0, at)))))
     return Error{path, "the file is cut short or was edited: its checksum is another", kRemedy};
-  return Done{};
+  return text;
 }
 
 /// The values of a file, one after the other, and the first that is wrong.
@@ -116,8 +116,9 @@ Result<Done> write_last_pose(const std::string& path, const LastPose& pose) {
 }
 
 Result<LastPose> read_last_pose(const std::string& path) {
-  if (auto whole = check_whole(path); !whole) return whole.error();
-  const auto yaml = read_yaml(path);
+  auto text = read_as_written(path);
+  if (!text) return text.error();
+  const auto yaml = parse_yaml(path, *std::move(text));
   if (!yaml) return yaml.error();
   Values values(path, *yaml);
   LastPose pose;

@@ -6,7 +6,7 @@
 namespace beaconless::io {
 
 Result<Done> PoseSaver::update(const PoseEstimate& estimate) {
-  if (!estimate.ok()) return Done{};
+  if (!estimate.is_trusted()) return Done{};
   good_ = estimate;
   // Clocks that are set back must not keep the file from being written.
   if (tried_ && std::abs(seconds_between(*tried_, estimate.stamp)) < kPause_s) return Done{};

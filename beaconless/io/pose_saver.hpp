@@ -10,7 +10,8 @@ namespace beaconless::io {
 
 /// Keeps a file with the last good pose while a robot drives.
 ///
-/// Only estimates that are ok count. Writes at most once in `kPause_s` of their time, because every writing
+/// Only estimates that are ok and deserve trust count: a start from a wrong pose that fits would be believed.
+/// Writes at most once in `kPause_s` of their time, because every writing
 /// waits for the disk.
 class PoseSaver {
  public:

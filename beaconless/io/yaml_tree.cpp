@@ -160,11 +160,15 @@ std::string YamlNode::described() const {
 Result<YamlNode> read_yaml(const std::string& path) {
   auto bytes = read_whole_file(path, kMaxYamlBytes);
   if (!bytes) return bytes.error();
-  if (const int line = line_of_too_many_brackets(*bytes); line > 0)
+  return parse_yaml(path, std::move(bytes).value());
+}
+
+Result<YamlNode> parse_yaml(const std::string& path, std::string bytes) {
+  if (const int line = line_of_too_many_brackets(bytes); line > 0)
     return Error{path + ":" + std::to_string(line), kTooDeep, "is it the right file?"};
   TreeGrower grower;
   try {
-    std::istringstream in(std::move(bytes).value());
+    std::istringstream in(std::move(bytes));
     YAML::Parser parser(in);
     while (parser.HandleNextDocument(grower)) {
     }

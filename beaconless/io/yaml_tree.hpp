@@ -43,6 +43,9 @@ inline constexpr std::uint64_t kMaxYamlBytes = 16U << 20U;
 /// to mean a huge one). An empty file is a null node.
 Result<YamlNode> read_yaml(const std::string& path);
 
+/// The same of what was read from the file already; its path is for messages.
+Result<YamlNode> parse_yaml(const std::string& path, std::string bytes);
+
 /// "path:line", the form of Error::where.
 std::string where_in(const std::string& path, const YamlNode& node);
 

@@ -17,27 +17,17 @@ namespace {
 
 constexpr double kNominalStep_s = 0.1;  // between scans whose stamps do not tell
 constexpr double kUnplaced = 0.45;      // most quality of a pose that no start pose and no search vouches for
-constexpr double kOnePlace = 0.95;      // of all weight, in one cluster
-constexpr double kWide_m = 0.3;         // a cloud wider than either in some direction tells no pose
-constexpr double kWide_rad = radians(10.0);
 constexpr int kAgreed = 5;              // scans in a row that must find a robot in one place
 constexpr double kRepeats = 0.04;       // of a cloud's variance, what its mean scatters by from scan to scan
 constexpr double kFarFromCloud = 16.0;  // squared standard deviations
-constexpr double kTypicalArm_m = 3.0;   // at which what is known across becomes a heading
 constexpr double kJump_m = 0.5;
 constexpr double kJump_rad = radians(30.0);
-constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
 constexpr std::size_t kChecks = 240;
 constexpr std::size_t kFollowed = 180;  // points by which motion is followed without wheels
 constexpr std::size_t kMostCandidates = 16;
 constexpr double kLeastWeight = 0.01;  // of a candidate
 
 double square(double value) { return value * value; }
-
-bool is_wide(const Eigen::Matrix3d& covariance) {
-  return covariance(0, 0) > square(kWide_m) || covariance(1, 1) > square(kWide_m) ||
-         covariance(2, 2) > square(kWide_rad);
-}
 
 }  // namespace
 
@@ -46,8 +36,7 @@ AmclLocalizer::AmclLocalizer(const LocalizerConfig& config, const Map& map,
     : config_(config),
       map_(std::move(surfaces)),
       polish_(std::move(polish)),
-      nearness_(*map_, config.search.cell_m, config.search.truncate_m),
-      filter_(map, *map_, config.base_from_laser, config.amcl),
+      cloud_(config, map, map_),
       motion_(config.motion),
       odometry_(config.odometry),
       health_(config.health) {}
@@ -55,26 +44,18 @@ AmclLocalizer::AmclLocalizer(const LocalizerConfig& config, const Map& map,
 void AmclLocalizer::begin() {
   health_ = Health(config_.health);
   candidates_.clear();
-  hints_.clear();
   last_scan_.reset();
-  since_ = {};
   last_ = PoseEstimate{};
-  last_.map_from_base = at_update_.map_from_base;
+  last_.map_from_base = cloud_.now().map_from_base;
+  motion_.start_at(cloud_.now().map_from_base);
   is_started_ = true;
   is_doubtful_ = false;
-  is_blind_ = false;
-  heaviest_ = 0.0;
   agreed_ = 0;
 }
 
 void AmclLocalizer::start_at(const Pose2& map_from_base) {
   if (!map_from_base.is_finite()) return;
-  const double sigma_rad = radians(config_.motion.start_sigma_deg);
-  at_update_ = {map_from_base, Eigen::Vector3d(square(config_.motion.start_sigma_m),
-                                               square(config_.motion.start_sigma_m), square(sigma_rad))
-                                   .asDiagonal()};
-  filter_.start_at(map_from_base, at_update_.covariance);
-  motion_.start_at(map_from_base);
+  cloud_.start_at(map_from_base);
   is_searching_ = false;
   is_placed_ = true;
   begin();
@@ -82,14 +63,7 @@ void AmclLocalizer::start_at(const Pose2& map_from_base) {
 
 void AmclLocalizer::start_anywhere(const std::optional<SearchRegion>& within) {
   if (within && !(within->middle.allFinite() && std::isfinite(within->radius_m))) return;
-  if (within)
-    filter_.start_within(within->middle, within->radius_m);
-  else
-    filter_.start_anywhere();
-  const std::vector<Cluster>& clusters = filter_.clusters();
-  at_update_.map_from_base = clusters.front().mean;
-  at_update_.covariance = spread_around(at_update_.map_from_base, clusters);
-  motion_.start_at(at_update_.map_from_base);
+  cloud_.start_anywhere(within);
   is_searching_ = true;
   is_placed_ = false;
   begin();
@@ -107,14 +81,14 @@ PoseEstimate AmclLocalizer::update(const Event& event) {
     return estimate;
   }
   // 1. How the robot has moved since the last scan.
-  const Step step = step_to(*scan);
+  const AmclCloud::Step step = step_to(*scan);
   is_by_wheels_ = step.is_by_wheels;
   // 2. What the laser saw, as from where it was at the stamp.
   observe(*scan, step);
   // 3. The belief moves on, and the cloud with it where wheels do not tell the way.
-  carry(step);
+  cloud_.carry(step);
   // 4. Where it has moved far enough, or the scan is doubted, the cloud is weighed and drawn anew.
-  if (is_due(step)) weigh(*scan);
+  if (is_doubtful_ || cloud_.is_due(step)) cloud_.weigh(*scan, points_, health_.lost());
   // 5. The whole scan polishes what the cloud tells, where that is asked for.
   const Belief belief = polished(*scan);
   // 6. Whether the scan fits there, and the cloud agrees on one place.
@@ -126,8 +100,8 @@ PoseEstimate AmclLocalizer::update(const Event& event) {
   return last_;
 }
 
-AmclLocalizer::Step AmclLocalizer::step_to(const Scan& scan) {
-  Step step;
+AmclCloud::Step AmclLocalizer::step_to(const Scan& scan) {
+  AmclCloud::Step step;
   if (!last_scan_) return step;
   const double told_s = seconds_between(*last_scan_, scan.stamp());
   const double usual_s = last_step_s_ > 0.0 ? last_step_s_ : kNominalStep_s;
@@ -151,74 +125,19 @@ AmclLocalizer::Step AmclLocalizer::step_to(const Scan& scan) {
   return step;
 }
 
-void AmclLocalizer::observe(const Scan& scan, const Step& step) {
+void AmclLocalizer::observe(const Scan& scan, const AmclCloud::Step& step) {
   const Eigen::Vector3d twist = config_.base_from_laser.inverse().adjoint() * step.twist_per_s.vector();
   const bool is_swept = config_.deskew && scan.sweep_time_s() > 0.0;
   points_at_stamp(scan, is_swept ? Twist2{twist.x(), twist.y(), twist.z()} : Twist2{}, points_);
 }
 
-void AmclLocalizer::carry(const Step& step) {
-  if (step.is_by_wheels) {
-    since_ = since_ * step.motion;
-    const OdometryStep so_far = odometry_step(since_, config_.amcl);
-    now_ = {at_update_.map_from_base * since_,
-            moved_by_odometry(at_update_.covariance, at_update_.map_from_base, so_far)};
-    return;
-  }
-  if (since_ != Pose2{}) filter_.move(odometry_step(std::exchange(since_, {}), config_.amcl));
-  filter_.move(step.motion, step.covariance);
-  const Eigen::Matrix3d turn = turn_of(now_.map_from_base);
-  const bool is_first = !last_scan_;
-  const Belief& before = is_first ? at_update_ : now_;
-  now_ = {before.map_from_base * step.motion, before.covariance + turn * step.covariance * turn.transpose()};
-  at_update_ = now_;
-}
-
-bool AmclLocalizer::is_due(const Step& step) const {
-  return !last_scan_ || !step.is_by_wheels || is_doubtful_ ||
-         std::hypot(since_.x_m, since_.y_m) >= config_.amcl.update_min_d ||
-         std::abs(since_.theta_rad) >= config_.amcl.update_min_a;
-}
-
-void AmclLocalizer::weigh(const Scan& scan) {
-  if (since_ != Pose2{}) filter_.move(odometry_step(std::exchange(since_, {}), config_.amcl));
-  at_update_ = now_;
-  is_blind_ = !filter_.weigh(scan, points_);
-  if (is_blind_) return;
-  const std::vector<Cluster>& clusters = filter_.clusters();
-  heaviest_ = clusters.front().weight;
-  at_update_ = {clusters.front().mean, spread_around(clusters.front().mean, clusters)};
-  // However narrow the cloud is, it knows walls by the cells of its field.
-  const double cell_m2 = square(config_.amcl.laser_field_cell) / 12.0;
-  at_update_.covariance.diagonal() += Eigen::Vector3d(cell_m2, cell_m2, cell_m2 / square(kTypicalArm_m));
-  now_ = at_update_;
-  search_where_lost();
-  // What is new to the map lowers weights too; where the rest of the scan fits, nothing is put elsewhere.
-  filter_.resample(health_.lost(), hints_);
-}
-
-void AmclLocalizer::search_where_lost() {
-  hints_.clear();
-  if (!(health_.lost() && filter_.lost_share() > 0.0)) {
-    lost_scans_ = 0;
-    return;
-  }
-  if (lost_scans_++ % config_.search.lost_stride != 0) return;
-  LocalSearchConfig window = config_.search;
-  window.window_m *= kLostWindow;
-  window.window_deg = 180.0;
-  search_around(points_, nearness_, now_.map_from_base * config_.base_from_laser, window, search_scratch_,
-                starts_);
-  const Pose2 laser_from_base = config_.base_from_laser.inverse();
-  for (const StartPose& start : starts_) hints_.push_back(start.map_from_laser * laser_from_base);
-}
-
 AmclLocalizer::Belief AmclLocalizer::polished(const Scan& scan) {
-  if (!polish_ || heaviest_ < kOnePlace || is_wide(now_.covariance)) return now_;
-  const Pose2 guess = now_.map_from_base * config_.base_from_laser;
+  const Belief& now = cloud_.now();
+  if (!polish_ || !cloud_.is_one_place() || cloud_.is_wide()) return now;
+  const Pose2 guess = now.map_from_base * config_.base_from_laser;
   polish_->observe(scan, points_, guess,
-                   moved_covariance(now_.covariance, now_.map_from_base, config_.base_from_laser));
-  return if_agreed(polish_->match(guess)).value_or(now_);
+                   moved_covariance(now.covariance, now.map_from_base, config_.base_from_laser));
+  return if_agreed(polish_->match(guess)).value_or(now);
 }
 
 AmclLocalizer::Belief AmclLocalizer::followed(const Belief& belief) {
@@ -227,7 +146,7 @@ AmclLocalizer::Belief AmclLocalizer::followed(const Belief& belief) {
   // what a match of the scan scatters by does not.
   if (!is_by_wheels_) {
     choose_points();
-    const Pose2 guess = now_.map_from_base * config_.base_from_laser;
+    const Pose2 guess = cloud_.now().map_from_base * config_.base_from_laser;
     if (const auto matched = if_agreed(match_icp(few_points_, *map_, guess, config_.icp, icp_scratch_)))
       return *matched;
   }
@@ -242,14 +161,15 @@ void AmclLocalizer::choose_points() {
 
 std::optional<AmclLocalizer::Belief> AmclLocalizer::if_agreed(const MatchResult& match) const {
   if (!match.usable()) return std::nullopt;
+  const Belief& now = cloud_.now();
   const Pose2 laser_from_base = config_.base_from_laser.inverse();
   Belief belief{match.map_from_laser * laser_from_base,
                 moved_covariance(match.covariance, match.map_from_laser, laser_from_base)};
-  if (match.rank < 3) belief.covariance = fused_covariance(belief.covariance, now_.covariance);
-  const Eigen::Vector3d off(belief.map_from_base.x_m - now_.map_from_base.x_m,
-                            belief.map_from_base.y_m - now_.map_from_base.y_m,
-                            wrap_angle(belief.map_from_base.theta_rad - now_.map_from_base.theta_rad));
-  const Eigen::Matrix3d expected = now_.covariance + belief.covariance + 1e-8 * Eigen::Matrix3d::Identity();
+  if (match.rank < 3) belief.covariance = fused_covariance(belief.covariance, now.covariance);
+  const Eigen::Vector3d off(belief.map_from_base.x_m - now.map_from_base.x_m,
+                            belief.map_from_base.y_m - now.map_from_base.y_m,
+                            wrap_angle(belief.map_from_base.theta_rad - now.map_from_base.theta_rad));
+  const Eigen::Matrix3d expected = now.covariance + belief.covariance + 1e-8 * Eigen::Matrix3d::Identity();
   const bool agrees = off.dot(expected.ldlt().solve(off)) < kFarFromCloud;
   if (!agrees || !belief.map_from_base.is_finite() || !belief.covariance.allFinite()) return std::nullopt;
   return belief;
@@ -266,16 +186,16 @@ PoseEstimate AmclLocalizer::judge(const Belief& belief, const Scan& scan) {
   const bool was_lost = health_.lost();
   estimate.status = health_.judge(scan.stamp(), explained);
   // Particles that were spread anywhere may have settled on one of two like places.
-  estimate.quality = std::min(is_placed_ ? 1.0 : kUnplaced, explained * heaviest_);
+  estimate.quality = std::min(is_placed_ ? 1.0 : kUnplaced, explained * cloud_.heaviest());
   estimate.reason = reason_of(estimate.status, was_lost);
   // 2. Whether the cloud agrees on one place, for some scans after a start anywhere.
-  const bool agrees = heaviest_ >= kOnePlace && !is_wide(now_.covariance) && estimate.ok();
+  const bool agrees = cloud_.is_one_place() && !cloud_.is_wide() && estimate.ok();
   agreed_ = agrees ? agreed_ + 1 : 0;
   if (agreed_ >= kAgreed) is_searching_ = false;
   const std::string_view doubts = doubt();
   const bool is_settled = estimate.status != Status::lost || is_searching_;
   if (is_settled && !doubts.empty() && !(estimate.status == Status::degraded && !is_searching_)) {
-    const bool is_between = is_searching_ || heaviest_ < kOnePlace;
+    const bool is_between = is_searching_ || !cloud_.is_one_place();
     estimate.status = is_between ? Status::relocalizing : Status::degraded;
     estimate.reason = doubts;
   }
@@ -305,21 +225,23 @@ void AmclLocalizer::learn_motion(const Belief& belief, Stamp stamp, PoseEstimate
 }
 
 std::string_view AmclLocalizer::doubt() const {
-  if (is_blind_) return "the scan has no beam that could weigh particles";
-  if (heaviest_ < kOnePlace) return "the particles are in several places that fit";
-  if (is_wide(now_.covariance)) return "the particles are spread wider than a pose can be told from";
+  if (cloud_.is_blind()) return "the scan has no beam that could weigh particles";
+  if (!cloud_.is_one_place()) return "the particles are in several places that fit";
+  if (cloud_.is_wide()) return "the particles are spread wider than a pose can be told from";
   if (is_searching_) return "the particles have met in one place; more scans must agree";
   return {};
 }
 
 void AmclLocalizer::list_candidates() {
   candidates_.clear();
-  if (heaviest_ >= kOnePlace && !is_searching_) return;
+  if (cloud_.is_one_place() && !is_searching_) return;
   double all = 0.0;
-  for (const Cluster& cluster : filter_.clusters()) {
-    if (candidates_.size() == kMostCandidates || (cluster.weight < kLeastWeight && !candidates_.empty()))
-      break;
-    candidates_.push_back({cluster.mean, explained_share(cluster.mean), cluster.weight});
+  std::size_t looked_at = 0;
+  for (const Cluster& cluster : cloud_.clusters()) {
+    if (looked_at++ == kMostCandidates || (cluster.weight < kLeastWeight && !candidates_.empty())) break;
+    const double score = explained_share(cluster.mean);
+    if (score == 0.0) continue;  // the mean of a wide cluster may be where nobody stands
+    candidates_.push_back({cluster.mean, score, cluster.weight});
     all += cluster.weight;
   }
   for (PoseCandidate& candidate : candidates_) candidate.weight /= all;

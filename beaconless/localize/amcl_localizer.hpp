@@ -7,12 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "beaconless/localize/amcl_cloud.hpp"
 #include "beaconless/localize/localizer.hpp"
 #include "beaconless/localize/localizer_config.hpp"
 #include "beaconless/localize/scan_matcher.hpp"
-#include "beaconless/map/nearness_pyramid.hpp"
 #include "beaconless/map/surface_map.hpp"
-#include "beaconless/particle/particle_filter.hpp"
 #include "beaconless/track/odometry_track.hpp"
 
 namespace beaconless {
@@ -37,26 +36,11 @@ class AmclLocalizer final : public Localizer {
   PoseEstimate update(const Event& event) override;
 
  private:
-  /// How the robot moved from the last scan to this one.
-  struct Step {
-    Pose2 motion;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the motion; not of wheels'
-    bool is_by_wheels = false;
-    Twist2 twist_per_s;  ///< from now on, base frame
-  };
-  /// Where the robot is, by the cloud or what came of it.
-  struct Belief {
-    Pose2 map_from_base;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  };
+  using Belief = AmclCloud::Belief;
 
   void begin();
-  Step step_to(const Scan& scan);
-  void observe(const Scan& scan, const Step& step);
-  void carry(const Step& step);
-  bool is_due(const Step& step) const;
-  void weigh(const Scan& scan);
-  void search_where_lost();
+  AmclCloud::Step step_to(const Scan& scan);
+  void observe(const Scan& scan, const AmclCloud::Step& step);
   Belief polished(const Scan& scan);
   Belief followed(const Belief& belief);
   void choose_points();
@@ -70,21 +54,13 @@ class AmclLocalizer final : public Localizer {
   LocalizerConfig config_;
   std::shared_ptr<const SurfaceMap> map_;
   std::unique_ptr<ScanMatcher> polish_;
-  NearnessPyramid nearness_;
-  ParticleFilter filter_;
+  AmclCloud cloud_;
   MotionFilter motion_;
   OdometryTrack odometry_;
   Health health_;
-  Belief at_update_;                     // the cloud's, when it was weighed last …
-  Pose2 since_;                          // … and how wheels have moved the base since
-  Belief now_;                           // both together
-  double heaviest_ = 0.0;                // share of the heaviest cluster
   std::vector<Eigen::Vector2d> points_;  // laser frame at the stamp
   std::vector<Eigen::Vector2d> few_points_;
   IcpScratch icp_scratch_;
-  LocalSearchScratch search_scratch_;
-  std::vector<StartPose> starts_;
-  std::vector<Pose2> hints_;
   std::vector<PoseCandidate> candidates_;
   std::optional<Stamp> last_scan_;
   double last_step_s_ = 0.0;
@@ -94,9 +70,7 @@ class AmclLocalizer final : public Localizer {
   bool is_searching_ = false;  // started anywhere, and not found yet
   bool is_doubtful_ = false;   // the last scan explained less than usual
   bool is_by_wheels_ = false;  // the way to the last scan was told by wheels
-  bool is_blind_ = false;      // it had no beam to weigh by
   int agreed_ = 0;             // scans in a row with the cloud in one place
-  int lost_scans_ = 0;
 };
 
 }  // namespace beaconless

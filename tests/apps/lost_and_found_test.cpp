@@ -116,6 +116,33 @@ TEST_F(LostAndFound, AnOldPoseIsToldAndAWrongOneIsSearchedFor) {
   EXPECT_THAT(ran.err, HasSubstr("searched everywhere"));
 }
 
+TEST_F(LostAndFound, OfARobotThatIsNeverFoundIsToldWhatToDoByHowItWasStarted) {
+  const auto told = [&](const std::string& start) {
+    const Ran ran = run({"localize", recording(), "--map", folder.path("elsewhere.yaml"), "--start", start});
+    EXPECT_EQ(ran.exit_code, 4) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("never found"));
+    return ran.err;
+  };
+  EXPECT_THAT(told("80,80,0"), HasSubstr("check the start pose"));
+  EXPECT_THAT(told("auto"), testing::AllOf(Not(HasSubstr("check the start pose")), HasSubstr("drive on")));
+  EXPECT_THAT(told("near:51,52,3"), testing::AllOf(HasSubstr("check the region"), HasSubstr("--start auto")));
+}
+
+TEST_F(LostAndFound, ARegionOffTheMapIsRefused) {
+  for (const char* start :
+       {"near:3,2,2", "near:49,49,1.4"}) {  // the second reaches the map's corner not quite
+    const Ran ran = run({"localize", recording(), "--map", folder.path("elsewhere.yaml"), "--start", start});
+    EXPECT_EQ(ran.exit_code, 3);
+    EXPECT_THAT(ran.err, HasSubstr("--start: \"" + std::string(start) + "\" lies wholly off the map"));
+    EXPECT_THAT(ran.err, HasSubstr("50.0,50.0 and 53.0,54.0"));
+  }
+  EXPECT_EQ(
+      run({"localize", recording(), "--map", folder.path("elsewhere.yaml"), "--start", "near:49,49,1.5"})
+          .exit_code,
+      4)
+      << "it reaches the map, but the robot is not there";
+}
+
 TEST_F(LostAndFound, DisksThatRefuseDoNotStopTheRun) {
   folder.write("file", "no folder");
   const Ran ran = run(localize() + Words{"--save-pose", folder.path("file/pose.yaml"), "--blackbox",

@@ -10,6 +10,7 @@ namespace beaconless::cli {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(StartWords, SayAPoseAnywhereARegionOrAFile) {
   const auto here = std::get<StartHere>(start_from_words("1.5,-2,90").value());
@@ -47,6 +48,23 @@ TEST(StartWords, WhatIsNoneIsToldWithTheFormThatWasMeant) {
     EXPECT_THAT(start.error().what, HasSubstr("\"" + wrong + "\""));
     EXPECT_THAT(start.error().remedy, HasSubstr(meant)) << wrong;
   }
+}
+
+TEST(StartWords, AWordWithALetterWrongIsToldWithTheOneThatWasMeant) {
+  for (const auto& [wrong, meant] : {std::pair{"AUTO", "auto"},
+                                     {"atuo", "auto"},
+                                     {"Auto", "auto"},
+                                     {"auto:", "auto"},
+                                     {"Near:1,2,3", "near:1,2,3"},
+                                     {"naer:1,2,3", "near:1,2,3"},
+                                     {"RESUME:Pose.yaml", "resume:Pose.yaml"},
+                                     {"resmue:pose.yaml", "resume:pose.yaml"}}) {
+    const auto start = start_from_words(wrong);
+    ASSERT_FALSE(start) << wrong;
+    EXPECT_THAT(start.error().remedy, HasSubstr("did you mean \"" + std::string(meant) + "\"?"));
+  }
+  for (const char* wrong : {"", "here", "1,2", "nan,0,0", "1.2;3.4;90"})
+    EXPECT_THAT(start_from_words(wrong).error().remedy, Not(HasSubstr("did you mean"))) << wrong;
 }
 
 TEST(WindowWords, SayLengthAndStride) {

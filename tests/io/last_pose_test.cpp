@@ -17,12 +17,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-PoseEstimate estimate_at(std::int64_t ns, double x_m, Status status = Status::ok) {
+PoseEstimate estimate_at(std::int64_t ns, double x_m, Status status = Status::ok, double quality = 0.9) {
   PoseEstimate estimate{.stamp = Stamp{ns},
                         .map_from_base = {x_m, -2.0 / 3.0, 3.0},
                         .status = status,
                         .reason = "",
-                        .quality = 0.9};
+                        .quality = quality};
   estimate.covariance << 1e-5, 2e-7, -3e-8, 2e-7, 4e-5, 5e-9, -3e-8, 5e-9, 6e-6;
   return estimate;
 }
@@ -150,6 +150,19 @@ TEST(PoseSaver, WritesTheLastGoodPoseOnceASecondAndAtTheEnd) {
   EXPECT_EQ(saved_x(), 4.0);
   ASSERT_TRUE(saver.update(estimate_at(-7'000'000'000, 6.0)));
   EXPECT_EQ(saved_x(), 6.0) << "a clock that is set back does not stop it";
+}
+
+TEST(PoseSaver, APoseThatDeservesNoTrustIsNotSaved) {
+  const TempFolder folder;
+  const std::string path = folder.path("pose.yaml");
+  PoseSaver saver(path, kMap);
+  ASSERT_TRUE(saver.update(estimate_at(0, 1.0, Status::ok, 0.49)));
+  ASSERT_TRUE(saver.finish());
+  EXPECT_FALSE(read_last_pose(path));
+  ASSERT_TRUE(saver.update(estimate_at(2'000'000'000, 2.0, Status::ok, 0.5)));
+  ASSERT_TRUE(saver.update(estimate_at(4'000'000'000, 3.0, Status::ok, 0.1)));
+  ASSERT_TRUE(saver.finish());
+  EXPECT_EQ(read_last_pose(path).value().map_from_base.x_m, 2.0);
 }
 
 TEST(PoseSaver, TellsADiskThatRefusesAndTriesAgain) {

@@ -184,6 +184,36 @@ TEST(AmclLocalizer, AStartBeyondAllMapsGivesFiniteNumbers) {
   }
 }
 
+/// A scan that hits in so many directions, two metres away.
+Scan scan_of_hits(std::size_t hits) {
+  RawScan raw{.angle_min_rad = 0.0F, .angle_increment_rad = 0.01F, .range_max_m = 10.0F};
+  raw.ranges_m.assign(100, std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < hits; ++i) raw.ranges_m[20 * i] = 2.0F;
+  return Scan::make(raw).value();
+}
+
+TEST(AmclLocalizer, OfPlacesThatAScanMayBeFromEachExplainsSomeOfIt) {
+  for (const std::size_t hits : {1U, 2U, 4U}) {
+    const auto localizer = make_localizer({.method = "amcl"}, test::rack_hall()).value();
+    localizer->start_anywhere();
+    localizer->update(scan_of_hits(hits));
+    ASSERT_FALSE(localizer->candidates().empty());
+    double weights = 0.0;
+    for (const PoseCandidate& candidate : localizer->candidates()) {
+      EXPECT_GT(candidate.score, 0.0);
+      weights += candidate.weight;
+    }
+    EXPECT_NEAR(weights, 1.0, 1e-9);
+  }
+}
+
+TEST(AmclLocalizer, AScanWithoutHitsMayBeFromNoPlaceThatIsNamed) {
+  const auto localizer = make_localizer({.method = "amcl"}, test::niche_room()).value();
+  localizer->start_anywhere();
+  EXPECT_FALSE(localizer->update(scan_of_hits(0)).ok());
+  EXPECT_TRUE(localizer->candidates().empty());
+}
+
 TEST(AmclLocalizer, AScanWithoutHitsIsNotOk) {
   const FloorPlan plan = test::niche_room();
   const auto localizer = make_localizer({.method = "amcl"}, plan).value();
