@@ -11,7 +11,7 @@
 
 namespace beaconless {
 
-/// A part of the map: a disc, and what else is in the square around it.
+/// A part of the map, where the base is: a disc.
 struct SearchRegion {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   double radius_m = 0.0;

@@ -65,18 +65,20 @@ PlaceFinder::PlaceFinder(const PlacesConfig& config, std::shared_ptr<const Surfa
       nearness_(*map_, config.search.cell_m, config.search.truncate_m),
       box_(bounds_of(*map_)) {}
 
-void PlaceFinder::begin(const FloorPlan::Bounds& box) {
+void PlaceFinder::begin(const FloorPlan::Bounds& box, Wanted wanted) {
   box_ = box;
+  wanted_ = std::move(wanted);
   places_.clear();
   views_.clear();
   looked_.reset();
+  is_hopeless_ = true;
   since_view_ = Pose2{};
   moved_.reset();
 }
 
 void PlaceFinder::begin() { begin(bounds_of(*map_)); }
 
-void PlaceFinder::begin_again() { begin(FloorPlan::Bounds(box_)); }
+void PlaceFinder::begin_again() { begin(FloorPlan::Bounds(box_), Wanted(wanted_)); }
 
 PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector2d> points,
                                       const std::optional<Pose2>& moved) {
@@ -87,9 +89,10 @@ PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector
     moved_.reset();
   else
     follow(way);
-  // 2. All that fit, with every view; where nothing does, now and then.
+  // 2. All that fit, with every view; where nothing does, at once, and then now and then.
   const bool is_hopeless = places_.empty() || verdict() == Verdict::nothing;
-  const bool is_due = !looked_ || std::abs(seconds_between(*looked_, stamp)) >= config_.every_s;
+  const bool is_due =
+      !looked_ || !is_hopeless_ || std::abs(seconds_between(*looked_, stamp)) >= config_.every_s;
   if (is_hopeless && is_due) views_.clear();
   if (views_.empty() ? is_due : is_new_view()) {
     look();
@@ -97,7 +100,9 @@ PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector
   }
   // 3. What that says.
   sort_out();
-  return verdict();
+  const Verdict said = verdict();
+  is_hopeless_ = said == Verdict::nothing;
+  return said;
 }
 
 bool PlaceFinder::is_new_view() const {
@@ -148,7 +153,7 @@ bool PlaceFinder::add(const StartPose& start, bool is_promising) {
   const bool is_known = std::any_of(places_.begin(), places_.end(), [&](const Place& known) {
     return is_same(known.map_from_laser, place.map_from_laser);
   });
-  if (is_known) return false;
+  if (is_known || (wanted_ && !wanted_(place.map_from_laser))) return false;
   place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
   const double promised = 1.0 - start.cost;
   if (is_promising && place.now.on_map < promised - kBroken) step_aside(place);

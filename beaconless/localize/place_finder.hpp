@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,8 +65,11 @@ class PlaceFinder {
   PlaceFinder(const PlacesConfig& config, std::shared_ptr<const SurfaceMap> map, const IcpConfig& icp,
               const WallsConfig& walls);
 
-  /// Forgets all; the laser is in this box.
-  void begin(const FloorPlan::Bounds& box);
+  /// Whether a place, map_from_laser, is one where the laser may be.
+  using Wanted = std::function<bool(const Pose2&)>;
+
+  /// Forgets all; the laser is in this box, at a place that is wanted; all are, if that is empty.
+  void begin(const FloorPlan::Bounds& box, Wanted wanted = {});
   void begin();        ///< anywhere on the map
   void begin_again();  ///< where it was before
 
@@ -107,12 +111,14 @@ class PlaceFinder {
   WallsConfig walls_;
   NearnessPyramid nearness_;
   FloorPlan::Bounds box_;
+  Wanted wanted_;
   std::span<const Eigen::Vector2d> points_;
   std::vector<Place> places_;
   std::vector<View> views_;
   Pose2 since_view_;  // view's laser frame from the laser's now
   std::optional<Pose2> moved_;
   std::optional<Stamp> looked_;
+  bool is_hopeless_ = true;  // nothing fitted the scan before
   mutable GlobalSearchScratch search_scratch_;
   mutable IcpScratch icp_scratch_;
   mutable WallsScratch walls_scratch_;

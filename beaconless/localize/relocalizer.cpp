@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/localize/relocalizer.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/localize/doubts.hpp"
 
@@ -9,6 +12,7 @@ namespace {
 
 constexpr int kFewAgree = 3;      // scans of a slow scanner that agree on a place suffice …
 constexpr double kAgree_s = 0.6;  // … over so long
+constexpr double kFastest_m_per_s = 3.0;
 constexpr double kHere_m = 0.25;  // a place this near is where the robot is thought to be
 constexpr double kHere_rad = radians(8.0);
 
@@ -18,9 +22,9 @@ constexpr std::string_view kOpenPlace =
 
 }  // namespace
 
-void Relocalizer::begin(const FloorPlan::Bounds& box, int agreeing_scans) {
+void Relocalizer::begin(const FloorPlan::Bounds& box, int agreeing_scans, PlaceFinder::Wanted wanted) {
   go_on(agreeing_scans);
-  finder_->begin(box);
+  finder_->begin(box, std::move(wanted));
 }
 
 void Relocalizer::go_on(int agreeing_scans) {
@@ -39,11 +43,22 @@ std::optional<PoseEstimate> Relocalizer::see(Stamp stamp, std::span<const Eigen:
   if (verdict == PlaceFinder::Verdict::nothing)
     return nowhere(stamp, believed, "the scan fits nowhere where it was looked for");
   // 2. It is there, once enough scans agree on one place.
-  if (verdict != PlaceFinder::Verdict::one) agreed_scans_ = 0;
-  if (verdict == PlaceFinder::Verdict::one && agreed_scans_++ == 0) agreed_since_ = stamp;
+  if (verdict != PlaceFinder::Verdict::one || !agrees(stamp)) agreed_scans_ = 0;
+  if (verdict == PlaceFinder::Verdict::one) {
+    if (agreed_scans_++ == 0) agreed_since_ = stamp;
+    agreed_last_ = stamp;
+    agreed_on_ = finder_->places().front().map_from_laser;
+  }
   const bool is_long = agreed_scans_ >= kFewAgree && seconds_between(agreed_since_, stamp) >= kAgree_s;
   if (agreed_scans_ < agreeing_scans_ && !is_long) return searching(stamp, verdict);
   return std::nullopt;
+}
+
+/// Whether a robot can have gone from the place of the scan before to that of this one: where none fits for
+/// a scan all are looked for anew.
+bool Relocalizer::agrees(Stamp stamp) const {
+  const double way_m = distance_m(agreed_on_, finder_->places().front().map_from_laser);
+  return way_m < kHere_m + kFastest_m_per_s * std::abs(seconds_between(agreed_last_, stamp));
 }
 
 PoseEstimate Relocalizer::nowhere(Stamp stamp, const Pose2& believed, std::string_view reason) {

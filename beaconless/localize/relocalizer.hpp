@@ -23,7 +23,7 @@ class Relocalizer {
       : laser_from_base_(laser_from_base), finder_(&finder) {}
 
   /// Forgets all; the laser is in this box, and so many scans in a row must agree, or a few over a second.
-  void begin(const FloorPlan::Bounds& box, int agreeing_scans);
+  void begin(const FloorPlan::Bounds& box, int agreeing_scans, PlaceFinder::Wanted wanted = {});
   /// The same, from what the finder knows.
   void go_on(int agreeing_scans);
   void forget() { candidates_.clear(); }
@@ -47,6 +47,7 @@ class Relocalizer {
 
  private:
   Pose2 base_at(const PlaceFinder::Place& place) const { return place.map_from_laser * laser_from_base_; }
+  bool agrees(Stamp stamp) const;
   PoseEstimate searching(Stamp stamp, PlaceFinder::Verdict verdict) const;
 
   Pose2 laser_from_base_;
@@ -55,6 +56,8 @@ class Relocalizer {
   int agreeing_scans_ = 1;
   int agreed_scans_ = 0;
   Stamp agreed_since_;
+  Stamp agreed_last_;
+  Pose2 agreed_on_;  // map_from_laser then
 };
 
 }  // namespace beaconless

@@ -54,7 +54,6 @@ constexpr double kBent_rad = radians(0.2);
 constexpr double kThroughWalls_share = 0.2;
 constexpr double kThrough_s = 2.0;    // of that put the place in doubt
 constexpr int kShaking = 2;           // and so do so many scans in a row that fit nowhere
-constexpr double kTrusted = 0.5;      // quality
 constexpr double kDoubted = 0.45;     // most quality of a pose whose place is in doubt
 constexpr double kUncorrected = 0.4;  // most quality of a pose that no fit has corrected
 constexpr std::string_view kThroughWalls = "many beams would have to pass through walls of the map";
@@ -126,15 +125,21 @@ void TrackingLocalizer::start_at(const Pose2& map_from_base) {
 
 void TrackingLocalizer::start_anywhere(const std::optional<SearchRegion>& within) {
   FloorPlan::Bounds box = bounds_of(*map_);
+  PlaceFinder::Wanted wanted;
   if (within && within->middle.allFinite() && std::isfinite(within->radius_m)) {
-    box.low = box.low.cwiseMax((within->middle.array() - within->radius_m).matrix());
-    box.high = box.high.cwiseMin((within->middle.array() + within->radius_m).matrix());
+    const double reach_m = within->radius_m + config_.base_from_laser.translation().norm();
+    box.low = box.low.cwiseMax((within->middle.array() - reach_m).matrix());
+    box.high = box.high.cwiseMin((within->middle.array() + reach_m).matrix());
+    wanted = [region = *within, laser_from_base = laser_from_base_](const Pose2& map_from_laser) {
+      const Pose2 map_from_base = map_from_laser * laser_from_base;
+      return (map_from_base.translation() - region.middle).norm() <= region.radius_m;
+    };
   }
   last_ = PoseEstimate{};
   last_scan_.reset();
   health_ = Health(config_.health);
   was_placed_ = false;
-  search_anywhere(box, 1);
+  search_anywhere(box, 1, std::move(wanted));
 }
 
 PoseEstimate TrackingLocalizer::update(const Event& event) {
@@ -170,10 +175,11 @@ PoseEstimate TrackingLocalizer::update(const Event& event) {
   return last_;
 }
 
-void TrackingLocalizer::search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans) {
+void TrackingLocalizer::search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans,
+                                        PlaceFinder::Wanted wanted) {
   is_anywhere_ = true;
   found_motion_.reset();
-  relocalizer_.begin(box, agreeing_scans);
+  relocalizer_.begin(box, agreeing_scans, std::move(wanted));
 }
 
 void TrackingLocalizer::hold_against_others(const Scan& scan) {
@@ -559,7 +565,7 @@ PoseEstimate TrackingLocalizer::accept(const MatchResult& match, const Predictio
   estimate.quality =
       trust_.quality(matcher_->tells_protection() ? std::optional(estimate.protection_m) : std::nullopt);
   // A level takes the place for granted; where it is not, nothing bounds the error.
-  if (estimate.quality < kTrusted) {
+  if (!estimate.is_trusted()) {
     estimate.protection_m = PoseEstimate::kUnbounded_m;
     estimate.protection_rad = kPi;
   }

@@ -56,7 +56,7 @@ class TrackingLocalizer final : public Localizer {
   std::optional<PoseEstimate> find(const Scan& scan);
   void hear_search(const Scan& scan, const Stamp& before);
   bool is_bent_by(const ToldTwist& motion, const Scan& scan) const;
-  void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans);
+  void search_anywhere(const FloorPlan::Bounds& box, int agreeing_scans, PlaceFinder::Wanted wanted = {});
   void hold_against_others(const Scan& scan);
   bool is_long_through_walls(Stamp stamp);
   void observe(const Scan& scan, const Pose2& map_from_laser, const Eigen::Matrix3d& covariance,
