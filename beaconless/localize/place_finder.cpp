@@ -20,6 +20,8 @@ constexpr double kNear_m = 0.1;     // how far ICP may be from where the walls a
 constexpr double kHeld_m = 0.3;     // a place less certain than this is not held
 constexpr double kBehind = 1.0;     // a place so far behind the best is given up …
 constexpr double kFarBehind = 1.5;  // … and so many margins
+constexpr double kAlone = 0.5;      // so far ahead of all others, and by so many margins, it is alone
+constexpr double kAloneMargins = 3.0;
 constexpr double kMostThrough = 0.25;
 constexpr double kPromising = 0.05;  // in cost: starts this near to the best are worth a second look …
 constexpr double kBroken = 0.15;     // … where the fit explains so much less than the search promised
@@ -249,9 +251,14 @@ std::span<const PlaceFinder::Place> PlaceFinder::likely() const {
   return {places_.begin(), end};
 }
 
+bool PlaceFinder::is_alone() const {
+  if (places_.size() < 2) return !places_.empty();
+  return places_[1].total < places_[0].total - std::max(kAlone, kAloneMargins * needed_margin());
+}
+
 double PlaceFinder::weight(const Place& place) const {
   double sum = 0.0;
-  for (const Place& other : places_) sum += std::exp(kBeamsThatCount * (other.total - place.total));
+  for (const Place& other : likely()) sum += std::exp(kBeamsThatCount * (other.total - place.total));
   return 1.0 / sum;
 }
 

@@ -85,7 +85,9 @@ class PlaceFinder {
   std::span<const Place> places() const { return places_; }
   /// Those of them that are not ruled out by the best, itself among them.
   std::span<const Place> likely() const;
-  /// How likely each is, if it is one of them; add up to 1.
+  /// Whether all others are so far behind the best that nobody need reckon with them.
+  bool is_alone() const;
+  /// How likely each is, if it is one of the likely ones; those add up to 1.
   double weight(const Place& place) const;
 
  private:

@@ -66,7 +66,7 @@ PlaceWatch::Finding PlaceWatch::judge(const Pose2& map_from_laser, bool is_fitte
   });
   if (is_rivalled) return Finding::rivalled;
   const bool was_followed = std::isfinite(reach_m_);
-  return was_followed || finder_->places().size() == 1 ? Finding::beyond_doubt : Finding::in_doubt;
+  return was_followed || finder_->is_alone() ? Finding::beyond_doubt : Finding::in_doubt;
 }
 
 }  // namespace beaconless

@@ -53,7 +53,7 @@ struct Search {
 
   void expect_sane() const {
     double weights = 0.0;
-    for (const PlaceFinder::Place& place : finder.places()) {
+    for (const PlaceFinder::Place& place : finder.likely()) {
       weights += finder.weight(place);
       EXPECT_TRUE(place.map_from_laser.is_finite());
       EXPECT_TRUE(std::isfinite(place.total));
