@@ -101,6 +101,7 @@ PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector
     looked_ = stamp;
   }
   // 3. What that says.
+  proposed_.reset();
   sort_out();
   const Verdict said = verdict();
   is_hopeless_ = said == Verdict::nothing;
@@ -147,6 +148,7 @@ void PlaceFinder::look() {
   // 2. Where it fits, and how all that was seen before fits there.
   search_everywhere(points_, nearness_, box_, config_.search, search_scratch_, starts_);
   for (const StartPose& start : starts_) add(start, start.cost < starts_.front().cost + kPromising);
+  if (proposed_) add({*proposed_}, false);
 }
 
 bool PlaceFinder::add(const StartPose& start, bool is_promising) {

@@ -73,6 +73,10 @@ class PlaceFinder {
   void begin();        ///< anywhere on the map
   void begin_again();  ///< where it was before
 
+  /// A place to look at with the next view, whether the search finds it or not: where all looks alike it
+  /// keeps some places of many.
+  void propose(const Pose2& map_from_laser) { proposed_ = map_from_laser; }
+
   /// Takes in a scan. In: its points in the laser frame at the stamp; how the laser has moved since the last
   /// scan (last_from_now) where that is known. Cost: a search of the region (tens of ms) with each view, a
   /// fit a place with any other scan.
@@ -119,6 +123,7 @@ class PlaceFinder {
   std::vector<View> views_;
   Pose2 since_view_;  // view's laser frame from the laser's now
   std::optional<Pose2> moved_;
+  std::optional<Pose2> proposed_;
   std::optional<Stamp> looked_;
   bool is_hopeless_ = true;  // nothing fitted the scan before
   mutable GlobalSearchScratch search_scratch_;

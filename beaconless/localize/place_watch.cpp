@@ -43,6 +43,7 @@ PlaceWatch::Finding PlaceWatch::see(Stamp stamp, std::span<const Eigen::Vector2d
   if (seen_ && std::abs(seconds_between(*seen_, stamp)) < kEvery_s) return finding_;
   // 1. Where else the scan fits, and how the places of before do.
   const auto moved = was_ ? std::optional(was_->inverse() * map_from_laser) : std::nullopt;
+  finder_->propose(map_from_laser);
   const PlaceFinder::Verdict verdict = finder_->see(stamp, points, moved);
   seen_ = stamp;
   was_ = map_from_laser;

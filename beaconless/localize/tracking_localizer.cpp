@@ -186,7 +186,7 @@ void TrackingLocalizer::hold_against_others(const Scan& scan) {
   // 1. Whether there is any doubt.
   const bool is_fitted = coasted_scans_ == 0 && weak_scans_ == 0;
   if ((coasted_scans_ > 0 && coasted_scans_ < kShaking) || is_covered_ || last_.status == Status::lost ||
-      !config_.relocalize)
+      rivals_.any() || !config_.relocalize)
     return;
   if (is_long_through_walls(scan.stamp())) is_shaken_ = true;
   if (is_shaken_) watch_.doubt_followed(last_.map_from_base * config_.base_from_laser);
@@ -602,7 +602,9 @@ PoseEstimate TrackingLocalizer::coast(const Prediction& prediction, Stamp stamp,
   // What is usual is not learnt from it: it may drift away little by little.
   const double explained = health_.lost() || is_covered_ ? 0.0 : fit_at(prediction).on_map_ratio;
   explained_ = explained;
-  is_shaken_ = ++coasted_scans_ == kShaking || is_shaken_;
+  // Where only the method finds too little, the scan still tells that the robot is where it was.
+  coasted_scans_ = health_.is_weak(explained) ? coasted_scans_ + 1 : 0;
+  is_shaken_ = is_shaken_ || coasted_scans_ == kShaking;
   estimate.quality = kUncorrected * explained;
   if (health_.is_weak(explained)) health_.judge(stamp, explained);
   if (health_.lost()) estimate.covariance += kLostCovariance;
