@@ -65,7 +65,8 @@ PlaceFinder::PlaceFinder(const PlacesConfig& config, std::shared_ptr<const Surfa
       icp_(icp),
       walls_(walls),
       nearness_(*map_, config.search.cell_m, config.search.truncate_m),
-      box_(bounds_of(*map_)) {}
+      map_box_(bounds_of(*map_)),
+      box_(map_box_) {}
 
 void PlaceFinder::begin(const FloorPlan::Bounds& box, Wanted wanted) {
   box_ = box;
@@ -78,7 +79,13 @@ void PlaceFinder::begin(const FloorPlan::Bounds& box, Wanted wanted) {
   moved_.reset();
 }
 
-void PlaceFinder::begin() { begin(bounds_of(*map_)); }
+void PlaceFinder::begin() { begin(map_box_); }
+
+void PlaceFinder::begin_around(const Eigen::Vector2d& middle, double reach_m) {
+  const Eigen::Vector2d nearest = middle.cwiseMax(map_box_.low).cwiseMin(map_box_.high);
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
+  begin({(nearest - reach).cwiseMax(map_box_.low), (nearest + reach).cwiseMin(map_box_.high)});
+}
 
 void PlaceFinder::begin_again() { begin(FloorPlan::Bounds(box_), Wanted(wanted_)); }
 

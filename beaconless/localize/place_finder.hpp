@@ -70,7 +70,9 @@ class PlaceFinder {
 
   /// Forgets all; the laser is in this box, at a place that is wanted; all are, if that is empty.
   void begin(const FloorPlan::Bounds& box, Wanted wanted = {});
-  void begin();        ///< anywhere on the map
+  void begin();  ///< anywhere on the map
+  /// On the part of the map that is no further off in x and y than this, from the nearest point of the map.
+  void begin_around(const Eigen::Vector2d& middle, double reach_m);
   void begin_again();  ///< where it was before
 
   /// A place to look at with the next view, whether the search finds it or not: where all looks alike it
@@ -116,6 +118,7 @@ class PlaceFinder {
   IcpConfig icp_;
   WallsConfig walls_;
   NearnessPyramid nearness_;
+  FloorPlan::Bounds map_box_;
   FloorPlan::Bounds box_;
   Wanted wanted_;
   std::span<const Eigen::Vector2d> points_;

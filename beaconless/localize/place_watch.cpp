@@ -31,9 +31,7 @@ void PlaceWatch::doubt_found() { begin(std::numeric_limits<double>::infinity());
 
 void PlaceWatch::doubt_followed(const Pose2& map_from_laser) {
   if (in_doubt_) return;
-  const Eigen::Vector2d around(kAround_m, kAround_m);
-  const Eigen::Vector2d middle = map_from_laser.translation();
-  finder_->begin({middle - around, middle + around});
+  finder_->begin_around(map_from_laser.translation(), kAround_m);
   begin(kReach_m);
 }
 

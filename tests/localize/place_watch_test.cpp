@@ -99,6 +99,15 @@ TEST(PlaceWatch, AScanThatFitsNowhereChangesNothing) {
   EXPECT_TRUE(robot.watch.is_in_doubt());
 }
 
+TEST(PlaceWatch, APoseFarOffTheMapIsHeldAgainstTheNearestPartOfIt) {
+  Watched robot(test::niche_room());
+  const Pose2 believed{100.0, 100.0, 0.0};
+  robot.watch.doubt_followed(believed);
+  EXPECT_EQ(robot.see(kNiche, believed, false), Finding::elsewhere);
+  ASSERT_FALSE(robot.finder.likely().empty());
+  EXPECT_LT(distance_m(robot.finder.likely().front().map_from_laser, kNiche), 0.05);
+}
+
 TEST(PlaceWatch, DoubtThatIsThereAlreadyIsNotBegunAnew) {
   Watched robot(test::niche_room());
   const Pose2 believed{4.0, 3.0, 0.4};
