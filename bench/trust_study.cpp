@@ -18,7 +18,7 @@ namespace {
 
 using namespace beaconless;
 
-constexpr std::uint64_t kHeldOut = 100'000;  // seeds from here on are not looked at while anything is tuned
+constexpr std::uint64_t kHeldOut = 300'000;  // seeds from here on are not looked at while anything is tuned
 
 struct StudyWords {
   std::string study = "simulations";
