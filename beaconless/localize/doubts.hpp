@@ -15,6 +15,8 @@ inline const Eigen::Matrix3d kWeakCovariance = Eigen::Vector3d(0.01, 0.01, 0.002
 inline const Eigen::Matrix3d kLostCovariance = Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal();
 
 inline constexpr std::string_view kFound = "a place that fits was found; more scans must agree";
+inline constexpr std::string_view kCovered =
+    "the scanner seems to be covered: hardly a beam comes from further than half a metre";
 
 /// Why Health judged so; "" where it is ok. Static text.
 constexpr std::string_view reason_of(Status status, bool was_lost) {

@@ -4,17 +4,40 @@
 #include <algorithm>
 #include <cmath>
 
+#include "beaconless/localize/doubts.hpp"
+#include "beaconless/localize/same_place.hpp"
+
 namespace beaconless {
 namespace {
 
 constexpr double kEvery_s = 0.1;
-constexpr double kHere_m = 0.25;  // a place this near is where the robot is followed
-constexpr double kHere_rad = radians(8.0);
 constexpr double kReach_m = 3.0;    // a robot that was followed has not gone further unseen
 constexpr double kAround_m = 30.0;  // where is looked
 constexpr int kAbsent = 3;          // looks, before a place is given up
+constexpr double kDoubted = 0.45;   // most quality of a pose whose place is in doubt
+
+constexpr std::string_view kLikeOthers = "another place of the map fits the scans about as well";
+constexpr std::string_view kElsewhere = "the scans fit another place of the map far better";
 
 }  // namespace
+
+void doubt(PoseEstimate& estimate, PlaceWatch::Finding finding) {
+  if (finding == PlaceWatch::Finding::beyond_doubt) return;
+  // 1. What is in doubt is not to be relied on.
+  estimate.quality = std::min(estimate.quality, kDoubted);
+  estimate.protection_m = PoseEstimate::kUnbounded_m;
+  estimate.protection_rad = kPi;
+  // 2. What has its like in the map is degraded; what is elsewhere is lost.
+  if (finding == PlaceWatch::Finding::rivalled && estimate.ok()) {
+    estimate.status = Status::degraded;
+    estimate.reason = kLikeOthers;
+  }
+  if (finding == PlaceWatch::Finding::elsewhere) {
+    estimate.status = Status::lost;
+    estimate.reason = kElsewhere;
+    estimate.covariance += kLostCovariance;
+  }
+}
 
 void PlaceWatch::forget() { in_doubt_ = false; }
 
@@ -53,8 +76,7 @@ PlaceWatch::Finding PlaceWatch::see(Stamp stamp, std::span<const Eigen::Vector2d
 
 PlaceWatch::Finding PlaceWatch::judge(const Pose2& map_from_laser, bool is_fitted) {
   const auto is_here = [&](const PlaceFinder::Place& place) {
-    return distance_m(place.map_from_laser, map_from_laser) < kHere_m &&
-           heading_difference_rad(place.map_from_laser, map_from_laser) < kHere_rad;
+    return is_same_place(place.map_from_laser, map_from_laser);
   };
   const auto likely = finder_->likely();
   if (std::none_of(likely.begin(), likely.end(), is_here))

@@ -10,6 +10,7 @@
 #include "beaconless/core/stamp.hpp"
 #include "beaconless/geometry/pose2.hpp"
 #include "beaconless/localize/place_finder.hpp"
+#include "beaconless/pose_estimate.hpp"
 
 namespace beaconless {
 
@@ -52,5 +53,8 @@ class PlaceWatch {
   Finding finding_ = Finding::in_doubt;
   int absent_ = 0;  ///< looks in a row that do not have the place among the likely ones
 };
+
+/// Takes from the estimate of a robot that is followed what a finding leaves in doubt.
+void doubt(PoseEstimate& estimate, PlaceWatch::Finding finding);
 
 }  // namespace beaconless

@@ -6,6 +6,7 @@
 
 #include "beaconless/geometry/pose_covariance.hpp"
 #include "beaconless/localize/doubts.hpp"
+#include "beaconless/localize/same_place.hpp"
 
 namespace beaconless {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr int kFewAgree = 3;      // scans of a slow scanner that agree on a place suffice …
 constexpr double kAgree_s = 0.6;  // … over so long
 constexpr double kFastest_m_per_s = 3.0;
-constexpr double kHere_m = 0.25;  // a place this near is where the robot is thought to be
-constexpr double kHere_rad = radians(8.0);
 
 constexpr std::string_view kSeveral = "several places of the map fit what was seen; a drive tells which";
 constexpr std::string_view kOpenPlace =
@@ -58,7 +57,7 @@ std::optional<PoseEstimate> Relocalizer::see(Stamp stamp, std::span<const Eigen:
 /// a scan all are looked for anew.
 bool Relocalizer::agrees(Stamp stamp) const {
   const double way_m = distance_m(agreed_on_, finder_->places().front().map_from_laser);
-  return way_m < kHere_m + kFastest_m_per_s * std::abs(seconds_between(agreed_last_, stamp));
+  return way_m < kSamePlace_m + kFastest_m_per_s * std::abs(seconds_between(agreed_last_, stamp));
 }
 
 PoseEstimate Relocalizer::nowhere(Stamp stamp, const Pose2& believed, std::string_view reason) {
@@ -97,8 +96,7 @@ bool Relocalizer::is_only_at(const Pose2& map_from_base, Stamp stamp,
   finder_->begin();
   if (finder_->see(stamp, points, std::nullopt) != PlaceFinder::Verdict::one) return false;
   const Pose2 here = map_from_base * laser_from_base_.inverse();
-  const Pose2& there = finder_->places().front().map_from_laser;
-  return distance_m(here, there) < kHere_m && heading_difference_rad(here, there) < kHere_rad;
+  return is_same_place(here, finder_->places().front().map_from_laser);
 }
 
 }  // namespace beaconless

@@ -21,7 +21,7 @@ inline std::array<Pose2, 8> sidesteps(const Pose2& pose, double step_m = kWallTh
   std::array<Pose2, 8> beside;
   for (std::size_t i = 0; i < beside.size(); ++i) {
     const double direction = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(beside.size());
-    beside[i] = pose * Pose2(step_m * std::cos(direction), step_m * std::sin(direction), 0.0);
+    beside[i] = pose * Pose2{step_m * std::cos(direction), step_m * std::sin(direction), 0.0};
   }
   return beside;
 }
