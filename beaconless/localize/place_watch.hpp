@@ -14,7 +14,7 @@
 
 namespace beaconless {
 
-/// Holds the place where a robot is followed against all others of the map, as long as it is in doubt.
+/// Holds the place where a robot is followed against others of the map, as long as it is in doubt.
 ///
 /// A place found by a search of the map may be the likeliest of several: it is in doubt until a drive has
 /// left nothing else. A place where the robot was followed comes into doubt when scans stopped fitting for a

@@ -22,7 +22,7 @@ class Relocalizer {
   Relocalizer(PlaceFinder& finder, const Pose2& laser_from_base)
       : laser_from_base_(laser_from_base), finder_(&finder) {}
 
-  /// Forgets all; the laser is in this box, and so many scans in a row must agree, or a few over a second.
+  /// Forgets all; the laser is in this box, and so many scans in a row must agree, or a few over a while.
   void begin(const FloorPlan::Bounds& box, int agreeing_scans, PlaceFinder::Wanted wanted = {});
   void forget() { candidates_.clear(); }
 
