@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 
 #include "beaconless/io/quaternion_yaw.hpp"
+#include "beaconless/map/rasterize.hpp"
+
+#include "bridges/ros1/told.hpp"
 
 namespace beaconless::ros1 {
 namespace {
@@ -38,6 +41,20 @@ Result<OccupancyGrid> grid_of_message(const GridMessage& message) {
     if (percent < OccupancyGrid::kUnknown || percent > OccupancyGrid::kOccupied)
       percent = OccupancyGrid::kUnknown;
   return grid;
+}
+
+Result<GridMessage> message_of_map(const Map& map, const std::string& frame) {
+  if (const auto* plan = std::get_if<FloorPlan>(&map)) {
+    const auto drawn = rasterize(*plan);
+    return drawn ? message_of_map(*drawn, frame) : drawn.error();
+  }
+  const auto& grid = std::get<OccupancyGrid>(map);
+  return GridMessage{frame,
+                     grid.resolution_m,
+                     static_cast<std::uint32_t>(grid.width_cells),
+                     static_cast<std::uint32_t>(grid.height_cells),
+                     transform_of(grid.map_from_grid),
+                     grid.occupancy_percent};
 }
 
 }  // namespace beaconless::ros1

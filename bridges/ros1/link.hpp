@@ -49,6 +49,7 @@ class Link {
   virtual void send_transform(const TransformMessage& transform) = 0;
   virtual void send_places(const PosesMessage& places) = 0;
   virtual void send_path(const PosesMessage& path) = 0;
+  virtual void send_map(const GridMessage& map) = 0;  ///< one that came from a file; stays until the next
   virtual void send_beams(const PointsMessage& beams) = 0;
   virtual void send_diagnostic(const DiagnosticMessage& diagnostic) = 0;
   virtual bool wants_beams() = 0;  ///< whether anybody listens to them

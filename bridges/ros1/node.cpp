@@ -67,6 +67,14 @@ void Node::start() {
 }
 
 Result<Done> Node::set_map(Map map, const io::MapIdentity& identity) {
+  const auto message = message_of_map(map, config_.global_frame_id);
+  if (!message) return message.error();
+  if (auto used = use_map(std::move(map), identity); !used) return used.error();
+  link_.send_map(*message);
+  return Done{};
+}
+
+Result<Done> Node::use_map(Map map, const io::MapIdentity& identity) {
   const bool is_first = !localization_.has_map();
   if (auto set = localization_.set_map(std::make_shared<const Map>(std::move(map))); !set) return set.error();
   complaints_.clear("map");
@@ -84,7 +92,7 @@ Result<Done> Node::take_grid(const GridMessage& message) {
   // A map server that was started again brings the same map.
   if (const Map* known = localization_.map(); known != nullptr && *known == Map(*grid)) return Done{};
   const auto identity = identify_grid(*grid);
-  return set_map(*std::move(grid), identity);
+  return config_.map_file.empty() ? use_map(*std::move(grid), identity) : set_map(*std::move(grid), identity);
 }
 
 void Node::hear_map(const GridMessage& grid) {

@@ -28,7 +28,7 @@ class Node {
   /// The node as the link sees it; it must outlive those.
   Handlers handlers();
 
-  /// A map from a file. Errors: those of make_localizer.
+  /// A map from a file, which is sent for others to see. Errors: those of make_localizer and message_of_map.
   Result<Done> set_map(Map map, const io::MapIdentity& identity);
 
   void hear_scan(const ScanMessage& scan);
@@ -64,6 +64,7 @@ class Node {
   void tell(const PoseEstimate& estimate, const Scan& scan, const std::optional<Pose2>& odom_from_base);
   void tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base);
   void grow_path(const PoseEstimate& estimate);
+  Result<Done> use_map(Map map, const io::MapIdentity& identity);
   Result<Done> take_grid(const GridMessage& message);
   void complain(const std::string& subject, Level level, const std::string& words,
                 double lasts_s = Complaints::kForGood);

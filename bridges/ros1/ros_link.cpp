@@ -58,7 +58,7 @@ bool told(const Answer& answer) {
 
 /// All that hangs on one master.
 struct RosLink::Wires {
-  explicit Wires(const Handlers& on) : listener(buffer) {
+  Wires(const Handlers& on, const GridMessage& sent_map) : listener(buffer) {
     ros::NodeHandle node;
     ros::NodeHandle own("~");
     pose = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("amcl_pose", 20, true);
@@ -78,6 +78,7 @@ struct RosLink::Wires {
             }),
         node.subscribe<nav_msgs::OccupancyGrid>(
             "map", 1, [&on](const nav_msgs::OccupancyGrid::ConstPtr& m) { on.on_map(plain(*m)); })};
+    send_map(sent_map);
     using Empty = std_srvs::Empty;
     using Trigger = std_srvs::Trigger;
     services = {
@@ -99,10 +100,16 @@ struct RosLink::Wires {
             })};
   }
 
+  void send_map(const GridMessage& sent_map) {
+    if (sent_map.percent.empty()) return;
+    if (!map) map = ros::NodeHandle().advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+    map.publish(ros_grid(sent_map));
+  }
+
   tf2_ros::Buffer buffer;
   tf2_ros::TransformListener listener;
   tf2_ros::TransformBroadcaster broadcaster;
-  ros::Publisher pose, places, diagnostics, path, beams;
+  ros::Publisher pose, places, diagnostics, path, beams, map;
   std::vector<ros::Subscriber> subscribers;
   std::vector<ros::ServiceServer> services;
 };
@@ -126,7 +133,7 @@ std::map<std::string, std::string> RosLink::parameters() const {
 
 void RosLink::run(const Handlers& handlers) {
   handlers_ = handlers;
-  wires_ = std::make_unique<Wires>(handlers_);
+  wires_ = std::make_unique<Wires>(handlers_, map_);
   ros::NodeHandle node;
   const auto tick =
       node.createWallTimer(ros::WallDuration(kTick_s), [this](const auto&) { handlers_.on_tick(); });
@@ -152,7 +159,7 @@ void RosLink::look_after_master() {
     return;
   ROS_WARN("the ROS master does not know this node, as after a restart: subscribing and advertising again");
   wires_.reset();
-  wires_ = std::make_unique<Wires>(handlers_);
+  wires_ = std::make_unique<Wires>(handlers_, map_);
 }
 
 std::int64_t RosLink::now_ns() { return static_cast<std::int64_t>(ros::Time::now().toNSec()); }
@@ -188,6 +195,12 @@ void RosLink::send_transform(const TransformMessage& t) {
 void RosLink::send_places(const PosesMessage& places) { wires_->places.publish(ros_pose_array(places)); }
 void RosLink::send_path(const PosesMessage& path) { wires_->path.publish(ros_path(path)); }
 void RosLink::send_beams(const PointsMessage& beams) { wires_->beams.publish(ros_points(beams)); }
+
+void RosLink::send_map(const GridMessage& map) {
+  map_ = map;
+  if (wires_) wires_->send_map(map_);
+}
+
 bool RosLink::wants_beams() { return wires_->beams.getNumSubscribers() > 0; }
 
 void RosLink::send_diagnostic(const DiagnosticMessage& diagnostic) {

@@ -34,6 +34,7 @@ class RosLink final : public Link {
   void send_transform(const TransformMessage& transform) override;
   void send_places(const PosesMessage& places) override;
   void send_path(const PosesMessage& path) override;
+  void send_map(const GridMessage& map) override;
   void send_beams(const PointsMessage& beams) override;
   void send_diagnostic(const DiagnosticMessage& diagnostic) override;
   bool wants_beams() override;
@@ -48,6 +49,7 @@ class RosLink final : public Link {
   Handlers handlers_;
   std::unique_ptr<Wires> wires_;
   bool is_master_away_ = false;
+  GridMessage map_;  ///< sent; without cells: none was
 };
 
 }  // namespace beaconless::ros1

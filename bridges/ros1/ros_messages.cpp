@@ -83,6 +83,18 @@ geometry_msgs::PoseArray ros_pose_array(const PosesMessage& poses) {
   return message;
 }
 
+nav_msgs::OccupancyGrid ros_grid(const GridMessage& grid) {
+  nav_msgs::OccupancyGrid message;
+  message.header.frame_id = grid.frame_id;
+  message.header.stamp = message.info.map_load_time = ros::Time::now();
+  message.info.resolution = static_cast<float>(grid.resolution_m);
+  message.info.width = grid.width_cells;
+  message.info.height = grid.height_cells;
+  message.info.origin = ros_pose_of(grid.origin);
+  message.data = grid.percent;
+  return message;
+}
+
 nav_msgs::Path ros_path(const PosesMessage& poses) {
   auto message = headed<nav_msgs::Path>(poses.stamp_ns, poses.frame_id);
   for (const Transform& pose : poses.poses) {

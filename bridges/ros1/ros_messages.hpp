@@ -24,6 +24,7 @@ Transform plain(const geometry_msgs::Transform& transform);
 geometry_msgs::PoseWithCovarianceStamped ros_pose(const PoseMessage& pose);
 geometry_msgs::TransformStamped ros_transform(const TransformMessage& transform);
 geometry_msgs::PoseArray ros_pose_array(const PosesMessage& poses);
+nav_msgs::OccupancyGrid ros_grid(const GridMessage& grid);
 nav_msgs::Path ros_path(const PosesMessage& poses);
 visualization_msgs::Marker ros_points(const PointsMessage& points);
 

@@ -21,6 +21,7 @@ class FakeLink final : public Link {
   std::vector<TransformMessage> sent_transforms;
   std::vector<PosesMessage> places;
   std::vector<PosesMessage> paths;
+  std::vector<GridMessage> maps;
   std::vector<PointsMessage> beams;
   std::vector<DiagnosticMessage> diagnostics;
   std::vector<std::string> logs;
@@ -39,6 +40,7 @@ class FakeLink final : public Link {
   void send_path(const PosesMessage& path) override { paths.push_back(path); }
   void send_beams(const PointsMessage& sent) override { beams.push_back(sent); }
   void send_diagnostic(const DiagnosticMessage& diagnostic) override { diagnostics.push_back(diagnostic); }
+  void send_map(const GridMessage& map) override { maps.push_back(map); }
   bool wants_beams() override { return true; }
   void log(Level, const std::string& words) override { logs.push_back(words); }
   void keep_parameter(const std::string& name, double value) override { kept[name] = value; }

@@ -208,6 +208,18 @@ TEST_F(NodeTest, KeepsItsPoseOverAnotherMapAndPassesTheSameOver) {
   EXPECT_EQ(localizer->starts[0].x_m, 3.0);
 }
 
+TEST_F(NodeTest, SendsAMapThatCameFromAFileAndHearsNoOther) {
+  settings.node.map_file = "room.yaml";
+  ASSERT_TRUE(node().set_map(FloorPlan{.walls = {{{0.0, 0.0}, {4.0, 0.0}}}}, {"room.yaml", 1}));
+  ASSERT_THAT(link.maps, SizeIs(1));
+  EXPECT_THAT(link.maps[0].percent, Contains(100));
+  give_map();
+  give_laser();
+  scan(10);
+  EXPECT_THAT(link.poses, SizeIs(1));
+  EXPECT_THAT(link.maps, SizeIs(1));
+}
+
 TEST_F(NodeTest, SetsMapAndPoseTogetherOrNeither) {
   give_map(), give_laser(), give_wheels();
   scan(10);
