@@ -61,7 +61,8 @@ class Node {
   bool make_scan(Waiting& waiting);
   Wheels find_wheels(const Waiting& waiting);
   void localize(const Scan& scan, const std::optional<Pose2>& odom_from_base);
-  void tell(const PoseEstimate& estimate, const Scan& scan, const std::optional<Pose2>& odom_from_base);
+  void tell(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate, const Scan& scan,
+            const std::optional<Pose2>& odom_from_base);
   void tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base);
   void grow_path(const PoseEstimate& estimate);
   Result<Done> use_map(Map map, const io::MapIdentity& identity);

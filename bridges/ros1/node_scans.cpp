@@ -179,15 +179,17 @@ void Node::localize(const Scan& scan, const std::optional<Pose2>& odom_from_base
   if (!first_scan_) first_scan_ = scan.stamp();
   if (odom_from_base)
     localization_.update(Odometry{scan.stamp(), *odom_from_base, std::nullopt, config_.odom_frame_id});
+  const auto before = localization_.last();
   const PoseEstimate estimate = localization_.update(scan);
-  tell(estimate, scan, odom_from_base);
+  tell(before, estimate, scan, odom_from_base);
 }
 
-void Node::tell(const PoseEstimate& estimate, const Scan& scan, const std::optional<Pose2>& odom_from_base) {
+void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate, const Scan& scan,
+                const std::optional<Pose2>& odom_from_base) {
   const std::string& frame = config_.global_frame_id;
   link_.send_places(places_message(estimate, localization_.candidates(), frame));
   if (link_.wants_beams())
-    link_.send_beams(beams_message(estimate, scan, localization_.base_from_laser(), frame));
+    link_.send_beams(beams_message(before, estimate, scan, localization_.base_from_laser(), frame));
   if (auto saved = memory_.update(estimate); !saved)
     complain("pose_file", Level::warn, to_string(saved.error()), kRemember_s);
   // A pose that is not known is not told: whoever drives by it stops.
@@ -214,7 +216,7 @@ void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odo
 }
 
 void Node::grow_path(const PoseEstimate& estimate) {
-  if (!estimate.is_trusted()) return;
+  if (!estimate.ok()) return;
   const Pose2& at = estimate.map_from_base;
   if (!path_.poses.empty() &&
       std::hypot(at.x_m - path_.poses.back().x_m, at.y_m - path_.poses.back().y_m) < kPathStep_m)

@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 
 #include "beaconless/io/quaternion_yaw.hpp"
+#include "beaconless/scan/deskew.hpp"
 
 namespace beaconless::ros1 {
 namespace {
 
+constexpr double kSameMotion_s = 1.0;
 constexpr std::array kGreen{0.1F, 0.8F, 0.2F};
 constexpr std::array kYellow{0.9F, 0.7F, 0.0F};
 constexpr std::array kRed{0.9F, 0.1F, 0.1F};
@@ -64,16 +66,21 @@ PosesMessage places_message(const PoseEstimate& estimate, std::span<const PoseCa
   return message;
 }
 
-PointsMessage beams_message(const PoseEstimate& estimate, const Scan& scan, const Pose2& base_from_laser,
-                            const std::string& frame) {
+PointsMessage beams_message(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate,
+                            const Scan& scan, const Pose2& base_from_laser, const std::string& frame) {
   PointsMessage message{estimate.stamp.ns, frame, {}, kRed};
   if (estimate.ok()) message.colour = kGreen;
   if (estimate.status == Status::degraded) message.colour = kYellow;
   const Pose2 map_from_laser = estimate.map_from_base * base_from_laser;
-  message.points_m.reserve(scan.hit_count());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!scan.is_hit(i)) continue;
-    const Eigen::Vector2d point = map_from_laser * scan.point(i);
+  const double since_s = before ? seconds_between(before->stamp, estimate.stamp) : 0.0;
+  Twist2 per_s;
+  if (since_s > 0.0 && since_s < kSameMotion_s && !estimate.jumped)
+    per_s = 1.0 / since_s * ((before->map_from_base * base_from_laser).inverse() * map_from_laser).log();
+  std::vector<Eigen::Vector2d> points;
+  points_at_stamp(scan, per_s, points);
+  message.points_m.reserve(points.size());
+  for (const Eigen::Vector2d& seen : points) {
+    const Eigen::Vector2d point = map_from_laser * seen;
     message.points_m.push_back({point.x(), point.y()});
   }
   return message;

@@ -24,8 +24,11 @@ PosesMessage places_message(const PoseEstimate& estimate, std::span<const PoseCa
                             const std::string& frame);
 
 /// Where the scan's hits lie on the map; green where the pose is ok, yellow where it is degraded, red else.
-PointsMessage beams_message(const PoseEstimate& estimate, const Scan& scan, const Pose2& base_from_laser,
-                            const std::string& frame);
+///
+/// In: the estimate before this one too, whose way from there tells how the robot moved during the sweep, if
+/// it is within a second.
+PointsMessage beams_message(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate,
+                            const Scan& scan, const Pose2& base_from_laser, const std::string& frame);
 
 /// How it goes, worst first: the complaints, and what the last estimate says.
 DiagnosticMessage diagnostic_message(const std::optional<PoseEstimate>& estimate,

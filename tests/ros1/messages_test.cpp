@@ -109,6 +109,28 @@ TEST(TransformOf, IsUndoneByPoseOf) {
   EXPECT_LT(distance_m(*back, pose) + heading_difference_rad(*back, pose), 1e-12);
 }
 
+TEST(BeamsMessage, LieOnTheWallWhileTheRobotTurns) {
+  // A wall at x = 2 m, a tenth of a second from beam to beam.
+  const double rate = 0.5;  // rad/s
+  ScanMessage message = three_beams();
+  message.angle_min_rad = -0.2F, message.angle_increment_rad = 0.2F, message.time_increment_s = 0.1F;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double bearing = -0.2 + 0.2 * static_cast<double>(i) + rate * 0.1 * static_cast<double>(i);
+    message.ranges_m[i] = static_cast<float>(2.0 / std::cos(bearing));
+  }
+  message.stamp_ns = 1'000'000'000;
+  const auto scan = Scan::make(upright(message, MountedLaser{}));
+  ASSERT_TRUE(scan);
+  PoseEstimate before;
+  before.stamp = Stamp{900'000'000}, before.map_from_base.theta_rad = -0.1 * rate;
+  PoseEstimate now;
+  now.stamp = Stamp{1'000'000'000};
+  const auto beams = beams_message(before, now, *scan, Pose2{}, "map");
+  ASSERT_EQ(beams.points_m.size(), 3U);
+  for (const auto& point : beams.points_m) EXPECT_NEAR(point[0], 2.0, 1e-6);
+  EXPECT_GT(std::abs(beams_message({}, now, *scan, Pose2{}, "map").points_m[2][0] - 2.0), 0.01);
+}
+
 TEST(DiagnosticMessage, HasTheWorstOnTop) {
   PoseEstimate estimate;
   estimate.status = Status::ok, estimate.reason = "", estimate.quality = 0.9;
