@@ -33,6 +33,7 @@ class Localization {
   /// Begins again where the robot is believed to be, with nothing remembered of what it saw before.
   void begin_anew();
 
+  bool has_start() const { return start_.index() != 0; }  ///< told, and perhaps waiting for map and laser
   bool has_map() const { return map_ != nullptr; }
   const Map* map() const { return map_.get(); }
   bool is_ready() const { return localizer_ != nullptr; }

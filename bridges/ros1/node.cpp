@@ -44,7 +44,8 @@ void Node::complain(const std::string& subject, Level level, const std::string& 
     link_.log(level, subject + ": " + words);
 }
 
-// The start that was told, the one that was remembered, or none: by the first map only.
+// The start of the parameters, the one that was remembered, or none: by the first map, unless somebody was
+// quicker.
 void Node::start() {
   if (has_initial_pose_) {
     PoseMessage pose{0,
@@ -79,7 +80,7 @@ Result<Done> Node::use_map(Map map, const io::MapIdentity& identity) {
   if (auto set = localization_.set_map(std::make_shared<const Map>(std::move(map))); !set) return set.error();
   complaints_.clear("map");
   memory_.set_map(identity);
-  if (is_first) start();
+  if (is_first && !localization_.has_start()) start();
   return Done{};
 }
 

@@ -167,6 +167,14 @@ TEST_F(NodeTest, SearchesFromTheBeginningWithoutAnInitialPose) {
   EXPECT_THAT(localizer->searches, SizeIs(1));
 }
 
+TEST_F(NodeTest, TakesAnInitialPoseThatComesBeforeTheMap) {
+  node().hear_initial_pose({0, "map", {7.0, 0.0}, {}});
+  give_map(), give_laser();
+  scan(10);
+  ASSERT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_EQ(localizer->starts[0].x_m, 7.0);
+}
+
 TEST_F(NodeTest, SurvivesStampsOfEveryKindAndSaysSo) {
   give_map(), give_laser(), give_wheels();
   link.now = 10 * kTenth_ns;
