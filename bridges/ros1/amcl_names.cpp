@@ -54,6 +54,8 @@ constexpr std::array kNames{
 
 }  // namespace
 
+std::span<const AmclName> amcl_names() { return kNames; }
+
 std::optional<AmclName> amcl_name(std::string_view name) {
   const auto* const known =
       std::find_if(kNames.begin(), kNames.end(), [&](const AmclName& of) { return of.name == name; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace beaconless::ros1 {
@@ -12,6 +13,9 @@ struct AmclName {
   std::string_view ours;    ///< the parameter that it sets; "" where there is none
   std::string_view remark;  ///< why it has none
 };
+
+/// All that amcl knows and the node does not have under the same name.
+std::span<const AmclName> amcl_names();
 
 /// What a name means that amcl knows; nothing for others. Source: wiki.ros.org/amcl, section Parameters.
 std::optional<AmclName> amcl_name(std::string_view name);

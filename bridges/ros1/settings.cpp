@@ -16,7 +16,8 @@ const Field* named(const std::vector<Field>& fields, std::string_view name) {
 
 std::string unknown(const std::string& name, const std::vector<Field>& fields) {
   std::vector<std::string> names;
-  names.reserve(fields.size());
+  for (const AmclName& amcl : amcl_names())
+    if (!amcl.ours.empty()) names.emplace_back(amcl.name);
   for (const Field& field : fields) names.push_back(field.name);
   const std::string near = nearest_word(name, names);
   return "~" + name + ": there is no such parameter, it is passed over" +

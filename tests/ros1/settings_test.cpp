@@ -50,9 +50,10 @@ TEST(Settings, SayWhatAmclHasAndTheNodeHasNot) {
 }
 
 TEST(Settings, SuggestANameForOneThatNobodyKnows) {
-  const auto settings = settings_of({{"base_frame", "base"}, {"walls.sigma", "1"}});
+  const auto settings = settings_of({{"base_frame", "base"}, {"min_particle", "9"}, {"walls.sigma", "1"}});
   ASSERT_TRUE(settings);
   EXPECT_THAT(settings->remarks, ElementsAre(HasSubstr("did you mean ~base_frame_id?"),
+                                             HasSubstr("did you mean ~min_particles?"),
                                              HasSubstr("did you mean ~walls.sigma_m?")));
 }
 
