@@ -52,7 +52,7 @@ void Localization::begin() {
 }
 
 PoseEstimate Localization::update(const Event& event) {
-  const PoseEstimate estimate = localizer_->update(event);
+  PoseEstimate estimate = localizer_->update(event);
   if (std::holds_alternative<Scan>(event)) last_ = estimate;
   return estimate;
 }

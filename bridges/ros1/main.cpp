@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <exception>
 #include <iostream>
 #include <string_view>
 
@@ -22,9 +23,7 @@ int refuse(beaconless::ros1::RosLink& link, const beaconless::Error& error) {
   return 2;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace beaconless;
   for (int i = 1; i < argc; ++i)
     if (const std::string_view word = argv[i]; word == "--help" || word == "-h") {
@@ -48,4 +47,15 @@ int main(int argc, char** argv) {
   // 3. Hear and tell.
   link.run(node.handlers());
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "beaconless_ros1: " << error.what() << '\n';
+    return 1;
+  }
 }

@@ -15,7 +15,8 @@ constexpr double kSteepest_rad = radians(30.0);
 
 }  // namespace
 
-Result<MountedLaser> mounted_laser(const Transform& t) {
+Result<MountedLaser> mounted_laser(const Transform& base_from_laser) {
+  const Transform& t = base_from_laser;
   // The x axis of the laser in the base frame tells its heading, upside down or not.
   const auto heading_rad = io::yaw_rad_of_quaternion(t.qx, t.qy, t.qz, t.qw);
   if (!heading_rad || !std::isfinite(t.x_m) || !std::isfinite(t.y_m))

@@ -26,7 +26,10 @@ using Parameters = std::map<std::string, std::string>;
 void flatten(const std::string& name, XmlRpc::XmlRpcValue value, Parameters& into) {
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeStruct:
-      for (auto& [inner, of] : value) flatten(name.empty() ? inner : name + "." + inner, of, into);
+      for (auto& [inner, of] : value) {
+        std::string full = name.empty() ? "" : name + ".";
+        flatten(full.append(inner), of, into);
+      }
       break;
     case XmlRpc::XmlRpcValue::TypeBoolean:
       into[name] = static_cast<bool>(value) ? "true" : "false";
@@ -205,7 +208,7 @@ bool RosLink::wants_beams() { return wires_->beams.getNumSubscribers() > 0; }
 
 void RosLink::send_diagnostic(const DiagnosticMessage& diagnostic) {
   diagnostic_msgs::DiagnosticStatus status;
-  status.level = static_cast<std::uint8_t>(diagnostic.level);
+  status.level = static_cast<diagnostic_msgs::DiagnosticStatus::_level_type>(diagnostic.level);
   status.name = ros::this_node::getName().substr(1) + ": localization";
   status.hardware_id = "none";
   status.message = diagnostic.message;

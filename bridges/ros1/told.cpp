@@ -39,7 +39,8 @@ Transform transform_of(const Pose2& a_from_b) {
           std::cos(a_from_b.theta_rad / 2.0)};
 }
 
-Result<Pose2> pose_of(const Transform& t) {
+Result<Pose2> pose_of(const Transform& a_from_b) {
+  const Transform& t = a_from_b;
   const auto yaw_rad = io::yaw_rad_of_quaternion(t.qx, t.qy, t.qz, t.qw);
   if (!yaw_rad || !std::isfinite(t.x_m) || !std::isfinite(t.y_m))
     return Error{"tf", "a transform is not finite, or its quaternion is of length zero", ""};
