@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bridges/ros1/node.hpp"
+
+#include <fmt/format.h>
+
+#include "bridges/ros1/grid_of_message.hpp"
+#include "bridges/ros1/start_guess.hpp"
+#include "bridges/ros1/told.hpp"
+
+namespace beaconless::ros1 {
+namespace {
+
+constexpr double kTell_s = 1.0;       // from one diagnostic to the next
+constexpr double kNoScan_s = 2.0;     // without a scan something is wrong
+constexpr double kRemember_s = 10.0;  // how long a thing of a moment stays in the diagnostics
+
+}  // namespace
+
+Node::Node(const Settings& settings, Link& link, Localization::Maker maker)
+    : config_(settings.node),
+      has_initial_pose_(settings.has_initial_pose),
+      has_base_from_laser_(settings.has_base_from_laser),
+      link_(link),
+      localization_(settings.localizer, std::move(maker)),
+      memory_(settings.node.pose_file),
+      last_heard_s_(link.steady_s()) {
+  path_.frame_id = config_.global_frame_id;
+}
+
+Handlers Node::handlers() {
+  return {.on_scan = [this](const ScanMessage& scan) { hear_scan(scan); },
+          .on_initial_pose = [this](const PoseMessage& pose) { hear_initial_pose(pose); },
+          .on_map = [this](const GridMessage& grid) { hear_map(grid); },
+          .on_set_map = [this](const GridMessage& grid,
+                               const PoseMessage& pose) { return serve_set_map(grid, pose); },
+          .on_global_localization = [this] { return serve_global_localization(); },
+          .on_request_nomotion_update = [this] { return serve_nomotion_update(); },
+          .on_save_pose = [this] { return serve_save_pose(); },
+          .on_tick = [this] { tick(); }};
+}
+
+void Node::complain(const std::string& subject, Level level, const std::string& words, double lasts_s) {
+  if (complaints_.raise(subject, level, words, link_.steady_s(), lasts_s))
+    link_.log(level, subject + ": " + words);
+}
+
+// The start of the parameters, the one that was remembered, or none: by the first map, unless somebody was
+// quicker.
+void Node::start() {
+  if (has_initial_pose_) {
+    PoseMessage pose{0,
+                     config_.global_frame_id,
+                     transform_of({config_.initial_pose_x, config_.initial_pose_y, config_.initial_pose_a}),
+                     {}};
+    pose.covariance[0] = config_.initial_cov_xx;
+    pose.covariance[7] = config_.initial_cov_yy;
+    pose.covariance[35] = config_.initial_cov_aa;
+    return hear_initial_pose(pose);
+  }
+  const auto remembered = memory_.recall();
+  if (!remembered) complain("pose_file", Level::warn, to_string(remembered.error()));
+  if (remembered && *remembered) {
+    link_.log(Level::ok, fmt::format("starting where the robot was when {} was written", config_.pose_file));
+    localization_.start_at(**remembered);
+  } else if (config_.start == "auto") {
+    localization_.start_anywhere();
+  }
+}
+
+Result<Done> Node::set_map(Map map, const io::MapIdentity& identity) {
+  const auto message = message_of_map(map, config_.global_frame_id);
+  if (!message) return message.error();
+  if (auto used = use_map(std::move(map), identity); !used) return used.error();
+  link_.send_map(*message);
+  return Done{};
+}
+
+Result<Done> Node::use_map(Map map, const io::MapIdentity& identity) {
+  const bool is_first = !localization_.has_map();
+  if (auto set = localization_.set_map(std::make_shared<const Map>(std::move(map))); !set) return set.error();
+  complaints_.clear("map");
+  memory_.set_map(identity);
+  if (is_first && !localization_.has_start()) start();
+  return Done{};
+}
+
+Result<Done> Node::take_grid(const GridMessage& message) {
+  auto grid = grid_of_message(message);
+  if (!grid) return grid.error();
+  if (message.frame_id != config_.global_frame_id && message.frame_id != "/" + config_.global_frame_id)
+    link_.log(Level::warn, "map: its frame is \"" + message.frame_id + "\"; poses are told in \"" +
+                               config_.global_frame_id + "\" (global_frame_id)");
+  // A map server that was started again brings the same map.
+  if (const Map* known = localization_.map(); known != nullptr && *known == Map(*grid)) return Done{};
+  const auto identity = identify_grid(*grid);
+  return config_.map_file.empty() ? use_map(*std::move(grid), identity) : set_map(*std::move(grid), identity);
+}
+
+void Node::hear_map(const GridMessage& grid) {
+  if (!config_.map_file.empty() || (config_.first_map_only && localization_.has_map())) return;
+  if (auto taken = take_grid(grid); !taken) complain("map", Level::error, to_string(taken.error()));
+}
+
+void Node::hear_initial_pose(const PoseMessage& pose) {
+  const auto guess = start_guess_of(pose, config_.global_frame_id);
+  if (!guess)
+    return complain("initialpose", Level::warn, "refused: " + to_string(guess.error()), kRemember_s);
+  complaints_.clear("initialpose");
+  const Pose2& at = guess->map_from_base;
+  link_.log(Level::ok, fmt::format("{} x {:.3f} m, y {:.3f} m, {:.1f} degrees",
+                                   guess->within ? "searching around" : "starting at", at.x_m, at.y_m,
+                                   degrees(at.theta_rad)));
+  if (guess->within) {
+    localization_.start_anywhere(guess->within);
+  } else {
+    localization_.start_at(at);
+  }
+}
+
+Answer Node::serve_set_map(const GridMessage& grid, const PoseMessage& pose) {
+  const auto guess = start_guess_of(pose, config_.global_frame_id);
+  if (!guess) return {false, to_string(guess.error())};
+  if (auto taken = take_grid(grid); !taken) return {false, to_string(taken.error())};
+  hear_initial_pose(pose);
+  return {true, ""};
+}
+
+Answer Node::serve_global_localization() {
+  localization_.start_anywhere();
+  return {true, "looking on the whole map"};
+}
+
+Answer Node::serve_nomotion_update() const { return {true, "every scan is an update, moving or not"}; }
+
+Answer Node::serve_save_pose() {
+  const auto& last = localization_.last();
+  if (!last || !last->is_trusted())
+    return {false,
+            "there is no pose that deserves trust: " +
+                (last ? std::string(to_string(last->status)) : std::string("no scan was localized yet"))};
+  link_.keep_parameter("initial_pose_x", last->map_from_base.x_m);
+  link_.keep_parameter("initial_pose_y", last->map_from_base.y_m);
+  link_.keep_parameter("initial_pose_a", last->map_from_base.theta_rad);
+  if (auto written = memory_.finish(); !written) return {false, to_string(written.error())};
+  return {true, config_.pose_file.empty() ? "kept as initial_pose_x, _y and _a"
+                                          : "kept as initial_pose_x, _y and _a, and in " + config_.pose_file};
+}
+
+void Node::tick() {
+  drain();
+  const double now_s = link_.steady_s();
+  if (now_s - last_told_s_ < kTell_s) return;
+  last_told_s_ = now_s;
+  if (now_s - last_heard_s_ > kNoScan_s)
+    complain("scan", Level::error,
+             fmt::format("no scan for {:.0f} s; is the topic right, is its driver running?",
+                         now_s - last_heard_s_));
+  DiagnosticMessage diagnostic = diagnostic_message(localization_.last(), complaints_.at(now_s));
+  diagnostic.values.emplace_back("method", localization_.method());
+  diagnostic.values.emplace_back("scans_heard", std::to_string(scans_heard_));
+  diagnostic.values.emplace_back("scans_dropped", std::to_string(scans_dropped_));
+  diagnostic.values.emplace_back("longest_ms", fmt::format("{:.2f}", longest_ms_));
+  longest_ms_ = 0.0;
+  link_.send_diagnostic(diagnostic);
+  if (is_path_new_) link_.send_path(path_);
+  is_path_new_ = false;
+}
+
+}  // namespace beaconless::ros1

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bridges/ros1/complaints.hpp"
+#include "bridges/ros1/link.hpp"
+#include "bridges/ros1/localization.hpp"
+#include "bridges/ros1/mounted_laser.hpp"
+#include "bridges/ros1/pose_memory.hpp"
+#include "bridges/ros1/settings.hpp"
+#include "bridges/ros1/stamp_watch.hpp"
+
+namespace beaconless::ros1 {
+
+/// What a robot hears, brought to a localizer, and what that says, told: everything of the node but ROS.
+///
+/// A scan waits a little for its transforms, and those behind it wait with it, so that the order is kept.
+/// Total: whatever is heard, in any order, gives words in /diagnostics and never an identity for a transform
+/// that is missing.
+class Node {
+ public:
+  Node(const Settings& settings, Link& link, Localization::Maker maker = make_localizer);
+
+  /// The node as the link sees it; it must outlive those.
+  Handlers handlers();
+
+  /// A map from a file, which is sent for others to see. Errors: those of make_localizer and message_of_map.
+  Result<Done> set_map(Map map, const io::MapIdentity& identity);
+
+  void hear_scan(const ScanMessage& scan);
+  void hear_initial_pose(const PoseMessage& pose);
+  void hear_map(const GridMessage& grid);
+  Answer serve_set_map(const GridMessage& grid, const PoseMessage& pose);
+  Answer serve_global_localization();
+  Answer serve_nomotion_update() const;
+  Answer serve_save_pose();
+  void tick();
+
+ private:
+  struct Waiting {
+    ScanMessage message;
+    double since_s = 0.0;
+    std::optional<Scan> scan;  // as soon as the laser is known
+  };
+  enum class Step { done, wait };
+  /// Where the base is in the frame of the wheels, as far as that is known.
+  struct Wheels {
+    Step step = Step::done;
+    std::optional<Pose2> odom_from_base;
+  };
+
+  void start();
+  bool check_stamp(const ScanMessage& scan);
+  void drain();
+  Step take(Waiting& waiting);
+  Step find_laser(const Waiting& waiting);
+  bool make_scan(Waiting& waiting);
+  Wheels find_wheels(const Waiting& waiting);
+  void localize(const Scan& scan, const std::optional<Pose2>& odom_from_base);
+  void tell(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate, const Scan& scan,
+            const std::optional<Pose2>& odom_from_base);
+  void tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base);
+  void grow_path(const PoseEstimate& estimate);
+  Result<Done> use_map(Map map, const io::MapIdentity& identity);
+  Result<Done> take_grid(const GridMessage& message);
+  void complain(const std::string& subject, Level level, const std::string& words,
+                double lasts_s = Complaints::kForGood);
+
+  NodeConfig config_;
+  bool has_initial_pose_;
+  bool has_base_from_laser_;
+  Link& link_;
+  Localization localization_;
+  PoseMemory memory_;
+  Complaints complaints_;
+  StampWatch stamps_;
+  std::deque<Waiting> waiting_;
+  std::string laser_frame_;
+  std::optional<MountedLaser> laser_;
+  std::optional<Stamp> first_scan_;  // by its own clock
+  bool has_seen_wheels_ = false;
+  double last_heard_s_;
+  double last_told_s_ = 0.0;
+  PosesMessage path_;
+  bool is_path_new_ = false;
+  std::uint64_t scans_heard_ = 0;
+  std::uint64_t scans_dropped_ = 0;
+  double longest_ms_ = 0.0;  // from a scan's arrival to its pose, since the last diagnostic
+};
+
+}  // namespace beaconless::ros1

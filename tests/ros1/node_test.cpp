@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bridges/ros1/node.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/apps/fake_localizer.hpp"
+#include "tests/ros1/fake_link.hpp"
+
+namespace beaconless::ros1 {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr std::int64_t kTenth_ns = 100'000'000;
+
+/// A node with a localizer that believes what it is told.
+class NodeTest : public testing::Test {
+ protected:
+  NodeTest() { settings.has_initial_pose = true; }
+
+  Node& node() {
+    if (!node_) {
+      node_.emplace(settings, link, [this](const LocalizerConfig& config, const Map&) {
+        auto made = std::make_unique<FakeLocalizer>();
+        made->after_start_at = {{.map_from_base = {3.0, 4.0, 0.5}}};
+        made->after_start_anywhere = {
+            {.status = Status::relocalizing,
+             .candidates = {{{1.0, 1.0, 0.0}, 0.9, 0.5}, {{2.0, 1.0, 0.0}, 0.9, 0.5}}}};
+        localizer = made.get();
+        config_seen = config;
+        return Result<std::unique_ptr<Localizer>>(std::move(made));
+      });
+    }
+    return *node_;
+  }
+
+  void give_map() { node().hear_map({"map", 0.5, 2, 2, {}, {100, 0, 0, 100}}); }
+  void give_laser() { link.transforms[{"base_link", "laser"}] = FakeLink::known(0.2, 0.0); }
+  void give_wheels() { link.transforms[{"odom", "base_link"}] = FakeLink::known(1.0, 0.0); }
+
+  void scan(std::int64_t tenths, const std::string& frame = "laser") {
+    node().hear_scan({.stamp_ns = tenths * kTenth_ns,
+                      .frame_id = frame,
+                      .angle_min_rad = 0.0F,
+                      .angle_increment_rad = 0.1F,
+                      .range_max_m = 10.0F,
+                      .ranges_m = {1.0F, 2.0F}});
+  }
+
+  std::string diagnosed() {
+    link.steady += 1.1;
+    node().tick();
+    std::string all = link.diagnostics.back().message;
+    for (const auto& [key, value] : link.diagnostics.back().values) all += "\n" + key + ": " + value;
+    return all;
+  }
+
+  FakeLink link;
+  Settings settings;
+  FakeLocalizer* localizer = nullptr;
+  LocalizerConfig config_seen;
+
+ private:
+  std::optional<Node> node_;
+};
+
+TEST_F(NodeTest, TellsMapFromOdomWhereThereAreWheels) {
+  give_map(), give_laser(), give_wheels();
+  scan(10);
+  ASSERT_THAT(link.poses, SizeIs(1));
+  EXPECT_EQ(link.poses[0].pose.x_m, 3.0);
+  EXPECT_EQ(config_seen.base_from_laser.x_m, 0.2);
+  EXPECT_EQ(localizer->odometry_count, 1U);
+  ASSERT_THAT(link.sent_transforms, SizeIs(1));
+  const TransformMessage& sent = link.sent_transforms[0];
+  EXPECT_EQ(sent.child_frame_id, "odom");
+  EXPECT_EQ(sent.stamp_ns, 11 * kTenth_ns);  // a tenth ahead
+  // The base lies 1 m ahead in odom: map from odom times that is the pose.
+  EXPECT_NEAR(sent.transform.x_m + std::cos(0.5), 3.0, 1e-12);
+  EXPECT_NEAR(sent.transform.y_m + std::sin(0.5), 4.0, 1e-12);
+}
+
+TEST_F(NodeTest, TellsMapFromBaseWhereWheelsHaveNotComeForASecond) {
+  give_map(), give_laser();
+  for (const int tenths : {10, 15}) scan(tenths);
+  EXPECT_THAT(link.sent_transforms, IsEmpty());
+  scan(21);
+  ASSERT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_EQ(link.sent_transforms[0].child_frame_id, "base_link");
+  EXPECT_THAT(link.poses, SizeIs(3));
+}
+
+TEST_F(NodeTest, NeverTakesAMissingLaserForAnIdentity) {
+  give_map(), give_wheels();
+  scan(10);
+  link.steady += 3.0;
+  node().tick();
+  EXPECT_THAT(link.poses, IsEmpty());
+  EXPECT_EQ(localizer, nullptr);
+  EXPECT_THAT(diagnosed(), HasSubstr("where the laser \"laser\" sits on \"base_link\" is not known"));
+  // It comes later, and all is well.
+  give_laser();
+  scan(20);
+  EXPECT_THAT(link.poses, SizeIs(1));
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("sits on")));
+}
+
+TEST_F(NodeTest, KeepsTheOrderWhileAScanWaitsForItsWheels) {
+  give_map(), give_laser();
+  link.transforms[{"odom", "base_link"}] = {TransformAnswer::Kind::not_yet, {}, "it would lie in the future"};
+  scan(10), scan(11);
+  EXPECT_THAT(link.poses, IsEmpty());
+  give_wheels();
+  node().tick();
+  ASSERT_THAT(link.poses, SizeIs(2));
+  EXPECT_EQ(link.poses[0].stamp_ns, 10 * kTenth_ns);
+}
+
+TEST_F(NodeTest, GoesOnWithoutWheelsThatStayAwayAndSendsNoTf) {
+  give_map(), give_laser(), give_wheels();
+  scan(10);
+  link.transforms[{"odom", "base_link"}] = {TransformAnswer::Kind::not_yet, {}, "it would lie in the future"};
+  scan(11);
+  link.steady += 0.3;
+  node().tick();
+  EXPECT_THAT(link.poses, SizeIs(2));
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_THAT(diagnosed(), HasSubstr("it would lie in the future"));
+}
+
+TEST_F(NodeTest, RefusesABadInitialPoseAndGoesOn) {
+  give_map(), give_laser(), give_wheels();
+  scan(10);
+  PoseMessage bad{0, "odom", {}, {}};
+  node().hear_initial_pose(bad);
+  EXPECT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_THAT(diagnosed(), HasSubstr("initialpose: refused: "));
+  EXPECT_THAT(link.logs, Contains(HasSubstr("refused")));
+  bad.frame_id = "map";
+  node().hear_initial_pose(bad);
+  EXPECT_THAT(localizer->starts, SizeIs(2));
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("refused")));
+}
+
+TEST_F(NodeTest, SearchesWhenItIsAskedTo) {
+  give_map(), give_laser(), give_wheels();
+  scan(10);
+  EXPECT_TRUE(node().serve_global_localization().is_done);
+  scan(11);
+  EXPECT_THAT(localizer->searches, SizeIs(1));
+  EXPECT_THAT(link.poses, SizeIs(1));  // none while it is not known which place it is
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_THAT(link.places.back().poses, SizeIs(2));
+  EXPECT_FALSE(node().serve_save_pose().is_done);
+}
+
+TEST_F(NodeTest, SearchesFromTheBeginningWithoutAnInitialPose) {
+  settings.has_initial_pose = false;
+  give_map(), give_laser();
+  scan(10);
+  EXPECT_THAT(localizer->searches, SizeIs(1));
+}
+
+TEST_F(NodeTest, TakesAnInitialPoseThatComesBeforeTheMap) {
+  node().hear_initial_pose({0, "map", {7.0, 0.0}, {}});
+  give_map(), give_laser();
+  scan(10);
+  ASSERT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_EQ(localizer->starts[0].x_m, 7.0);
+}
+
+TEST_F(NodeTest, SurvivesStampsOfEveryKindAndSaysSo) {
+  give_map(), give_laser(), give_wheels();
+  link.now = 10 * kTenth_ns;
+  scan(10), scan(10);
+  EXPECT_THAT(diagnosed(), HasSubstr("has the stamp of the one before"));
+  scan(9);
+  EXPECT_THAT(diagnosed(), HasSubstr("stamped earlier"));
+  EXPECT_THAT(link.poses, SizeIs(1));
+  scan(9000);
+  EXPECT_THAT(diagnosed(), HasSubstr("ahead of now"));
+  scan(5);
+  EXPECT_THAT(diagnosed(), HasSubstr("jumped back"));
+  EXPECT_THAT(link.poses, SizeIs(3));
+  // It began anew where it was.
+  EXPECT_EQ(localizer->starts.back().x_m, 3.0);
+}
+
+TEST_F(NodeTest, SaysWhatIsMissing) {
+  scan(10);
+  EXPECT_THAT(diagnosed(), HasSubstr("no map yet"));
+  give_map(), give_laser();
+  link.steady += 5.0;
+  EXPECT_THAT(diagnosed(), HasSubstr("no scan for"));
+  scan(11);
+  EXPECT_THAT(link.poses, SizeIs(1));
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("no map yet")));
+  scan(12, "other_laser");
+  EXPECT_THAT(diagnosed(), HasSubstr("\"other_laser\" are passed over"));
+}
+
+TEST_F(NodeTest, KeepsItsPoseOverAnotherMapAndPassesTheSameOver) {
+  give_map(), give_laser(), give_wheels();
+  scan(10);
+  const FakeLocalizer* first = localizer;
+  give_map();
+  EXPECT_EQ(localizer, first);
+  node().hear_map({"map", 0.5, 1, 1, {}, {100}});
+  ASSERT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_EQ(localizer->starts[0].x_m, 3.0);
+}
+
+TEST_F(NodeTest, SendsAMapThatCameFromAFileAndHearsNoOther) {
+  settings.node.map_file = "room.yaml";
+  ASSERT_TRUE(node().set_map(FloorPlan{.walls = {{{0.0, 0.0}, {4.0, 0.0}}}}, {"room.yaml", 1}));
+  ASSERT_THAT(link.maps, SizeIs(1));
+  EXPECT_THAT(link.maps[0].percent, Contains(100));
+  give_map();
+  give_laser();
+  scan(10);
+  EXPECT_THAT(link.poses, SizeIs(1));
+  EXPECT_THAT(link.maps, SizeIs(1));
+}
+
+TEST_F(NodeTest, SetsMapAndPoseTogetherOrNeither) {
+  give_map(), give_laser(), give_wheels();
+  scan(10);
+  PoseMessage pose{0, "map", {7.0, 0.0}, {}};
+  EXPECT_FALSE(node().serve_set_map({"map", 0.5, 2, 2, {}, {100}}, pose).is_done);
+  EXPECT_TRUE(node().serve_set_map({"map", 0.5, 1, 1, {}, {100}}, pose).is_done);
+  EXPECT_EQ(localizer->starts.back().x_m, 7.0);
+  pose.pose.x_m = std::nan("");
+  EXPECT_FALSE(node().serve_set_map({"map", 0.5, 1, 1, {}, {0}}, pose).is_done);
+}
+
+TEST_F(NodeTest, KeepsThePoseForTheNextOneOfItsName) {
+  give_map(), give_laser(), give_wheels();
+  EXPECT_FALSE(node().serve_save_pose().is_done);
+  scan(10);
+  EXPECT_TRUE(node().serve_save_pose().is_done);
+  EXPECT_EQ(link.kept.at("initial_pose_y"), 4.0);
+}
+
+}  // namespace
+}  // namespace beaconless::ros1
