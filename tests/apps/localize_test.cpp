@@ -303,8 +303,18 @@ TEST_F(Localize, LostAtTheEndIsToldByTheExitCodeAndAllFilesAreThere) {
 
 TEST_F(Localize, AStartFarOutGivesNoNonsense) {
   EXPECT_EQ(run({"localize", recording(), "--map", plan(), "--start", "1e300,-1e300,1e9"}).exit_code, 2);
-  const Words far{"localize", recording(),        "--map",   plan(), "--start", "9e6,-9e6,9e6",
-                  "--out",    folder.path("run"), "--scans", ":10"};
+  const Words far{"localize",
+                  recording(),
+                  "--map",
+                  plan(),
+                  "--start",
+                  "9e6,-9e6,9e6",
+                  "--base-from-laser",
+                  "0.7,0,0",
+                  "--out",
+                  folder.path("run"),
+                  "--scans",
+                  ":10"};
   EXPECT_EQ(run(far + Words{"--set", "relocalize=false"}).exit_code, 4);
   EXPECT_EQ(run(far).exit_code, 0);  // looked for on the whole map, and found
   for (const char* name : {"trajectory.tum", "estimates.csv", "summary.json"}) {
