@@ -97,7 +97,8 @@ int run(int argc, char** argv) {
   app.add_option("--kinds", words.kinds, "Only these kinds, or recordings, or families of kidnappings")
       ->delimiter(',');
   app.add_option("--method", words.method, "Of the localizer");
-  app.add_flag("--held-out", words.held_out, "Seeds from 100000 on, which nothing was tuned to");
+  app.add_flag("--held-out", words.held_out,
+               "Seeds from " + std::to_string(kHeldOut) + " on, which nothing was tuned to");
   app.add_flag("--verbose", words.verbose, "A line a scan");
   CLI11_PARSE(app, argc, argv);
   if (words.study == "simulations") run_simulations(words);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "beaconless/geometry/pose_covariance.hpp"
+#include "beaconless/localize/lost_window.hpp"
 
 namespace beaconless {
 namespace {
@@ -13,7 +14,6 @@ constexpr double kOnePlace = 0.95;  // of all weight, in one cluster
 constexpr double kWide_m = 0.3;     // a cloud wider than either in some direction tells no pose
 constexpr double kWide_rad = radians(10.0);
 constexpr double kTypicalArm_m = 3.0;  // at which what is known across becomes a heading
-constexpr double kLostWindow = 2.5;    // how much wider a lost robot searches
 
 double square(double value) { return value * value; }
 
@@ -96,11 +96,8 @@ void AmclCloud::search_where_lost(std::span<const Eigen::Vector2d> points, bool 
     return;
   }
   if (lost_scans_++ % config_.search.lost_stride != 0) return;
-  LocalSearchConfig window = config_.search;
-  window.window_m *= kLostWindow;
-  window.window_deg = 180.0;
-  search_around(points, nearness_, now_.map_from_base * config_.base_from_laser, window, search_scratch_,
-                starts_);
+  search_around(points, nearness_, now_.map_from_base * config_.base_from_laser, lost_window(config_.search),
+                search_scratch_, starts_);
   const Pose2 laser_from_base = config_.base_from_laser.inverse();
   for (const StartPose& start : starts_) hints_.push_back(start.map_from_laser * laser_from_base);
 }

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "beaconless/localize/lost_window.hpp"
 #include "beaconless/match/sidesteps.hpp"
 
 namespace beaconless {
 namespace {
 
-constexpr double kBetter = 0.01;     // in misfit, before a start is preferred to one that was found first
-constexpr int kThroughStride = 8;    // scans
-constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
-constexpr double kVague_m = 0.1;     // a prediction less certain than this is not gone by …
+constexpr double kBetter = 0.01;   // in misfit, before a start is preferred to one that was found first
+constexpr int kThroughStride = 8;  // scans
+constexpr double kVague_m = 0.1;   // a prediction less certain than this is not gone by …
 constexpr double kVague_rad = radians(5.0);  // … where the whole scan tells better
 
 /// Whether the motion so far no longer tells where the robot is.
@@ -62,8 +62,7 @@ OtherStarts::Fits OtherStarts::fit(const MatchResult& first, const Prediction& p
 std::span<const StartPose> OtherStarts::around(const Prediction& prediction) {
   LocalSearchConfig window = config_;
   if (judge_->health().lost()) {
-    window.window_m *= kLostWindow;
-    window.window_deg = 180.0;
+    window = lost_window(window);
   } else {
     const double slack_m =
         2.0 * std::sqrt(std::max(0.0, prediction.covariance.topLeftCorner<2, 2>().trace()));

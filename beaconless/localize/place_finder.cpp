@@ -114,12 +114,15 @@ PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector
 
 /// Forgets what was seen, but not how far off the beginning is.
 void PlaceFinder::begin_anew() {
-  if (views_.empty()) return;
-  views_.back().to_next = since_view_;
+  end_view();
   for (const View& view : views_) begin_from_first_ = begin_from_first_ * view.to_next;
-  gone_m_ += since_view_.translation().norm();
-  since_view_ = Pose2{};
   views_.clear();
+}
+
+void PlaceFinder::end_view() {
+  if (views_.empty()) return;
+  gone_m_ += since_view_.translation().norm();
+  views_.back().to_next = std::exchange(since_view_, Pose2{});
 }
 
 std::optional<Pose2> PlaceFinder::moved() const {
@@ -156,10 +159,7 @@ void PlaceFinder::follow(const Pose2& moved) {
 
 void PlaceFinder::look() {
   // 1. This scan is a view of its own.
-  if (!views_.empty()) {
-    views_.back().to_next = since_view_;
-    gone_m_ += since_view_.translation().norm();
-  }
+  end_view();
   if (views_.empty()) places_.clear();
   if (views_.size() == kMostViews) {
     begin_from_first_ = begin_from_first_ * views_.front().to_next;
@@ -167,7 +167,6 @@ void PlaceFinder::look() {
     for (Place& place : places_) place.log_likelihoods.erase(place.log_likelihoods.begin());
   }
   views_.push_back({{points_.begin(), points_.end()}, Pose2{}});
-  since_view_ = Pose2{};
   for (Place& place : places_) {
     place.log_likelihoods.push_back(place.now.log_likelihood);
     place.scans_in_view = 1;

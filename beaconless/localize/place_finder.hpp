@@ -111,6 +111,7 @@ class PlaceFinder {
   void step_aside(Place& place) const;
   Pose2 weigh_past(Place& place) const;
   void begin_anew();
+  void end_view();
   FloorPlan::Bounds reachable() const;
   bool fit(std::span<const Eigen::Vector2d> points, const Pose2& guess, Place& place) const;
   void sort_out();

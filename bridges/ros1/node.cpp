@@ -10,9 +10,8 @@
 namespace beaconless::ros1 {
 namespace {
 
-constexpr double kTell_s = 1.0;       // from one diagnostic to the next
-constexpr double kNoScan_s = 2.0;     // without a scan something is wrong
-constexpr double kRemember_s = 10.0;  // how long a thing of a moment stays in the diagnostics
+constexpr double kTell_s = 1.0;    // from one diagnostic to the next
+constexpr double kNoScan_s = 2.0;  // without a scan something is wrong
 
 }  // namespace
 

@@ -41,6 +41,8 @@ class Node {
   void tick();
 
  private:
+  static constexpr double kRemember_s = 10.0;  // how long a thing of a moment stays in the diagnostics
+
   struct Waiting {
     ScanMessage message;
     double since_s = 0.0;

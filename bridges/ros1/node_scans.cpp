@@ -10,7 +10,6 @@ namespace beaconless::ros1 {
 namespace {
 
 constexpr std::size_t kMostWaiting = 200;
-constexpr double kRemember_s = 10.0;
 constexpr double kWheelsMayCome_s = 1.0;  // until then nobody says that there are none
 constexpr double kLaserWait_s = 2.0;      // at the beginning tf may still be silent
 constexpr double kTilted_rad = radians(3.0);
