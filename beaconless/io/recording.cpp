@@ -11,6 +11,8 @@
 #include "beaconless/io/carmen_log.hpp"
 #include "beaconless/io/float_text.hpp"
 #include "beaconless/io/line_reader.hpp"
+#include "beaconless/io/mcap_recording.hpp"
+#include "beaconless/io/mcap_records.hpp"
 #include "beaconless/io/rosbag1_recording.hpp"
 #include "beaconless/io/rostopic_echo.hpp"
 #include "beaconless/io/text_table.hpp"
@@ -22,7 +24,7 @@ namespace {
 using namespace std::string_literals;
 
 constexpr const char* kKnown =
-    "known are ROS 1 bags 2.0, CARMEN logs and `rostopic echo` text, the last two also gzipped";
+    "known are MCAP files, ROS 1 bags 2.0, CARMEN logs and `rostopic echo` text, the last two also gzipped";
 
 struct Magic {
   std::string bytes;
@@ -34,8 +36,6 @@ struct Magic {
 const std::vector<Magic>& not_read() {
   static const std::vector<Magic> kList{
       {"SQLite format 3\0"s, "is an SQLite database, as rosbag2 writes (.db3): not read yet",
-       "convert it with `rosbags-convert`, or echo the scans to text with `ros2 topic echo --full-length`"},
-      {"\x89MCAP0\r\n"s, "is an MCAP file: not read yet",
        "convert it with `rosbags-convert`, or echo the scans to text with `ros2 topic echo --full-length`"},
       {"\x28\xB5\x2F\xFD"s, "is compressed with zstd", "unpack it with `unzstd` first"},
       {"BZh"s, "is compressed with bzip2", "unpack it with `bunzip2` first"},
@@ -119,6 +119,7 @@ Result<Recording> open_recording(const std::string& path, const RecordingOptions
   const std::string head = raw_head(path);
   if (head.empty()) return Error{path, "cannot be read", "check its permissions"};
   if (is_rosbag(head)) return open_rosbag1(path, options);
+  if (head.starts_with(kMcapMagic)) return open_mcap(path, options);
   for (const Magic& magic : not_read())
     if (head.starts_with(magic.bytes)) return Error{path, magic.what, magic.remedy};
   if (head.starts_with("\x1F\x8B") && is_rosbag(unpacked_head(path)))
