@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "beaconless/io/mcap_compression.hpp"
+
 namespace beaconless::io {
 namespace {
 
@@ -48,6 +50,8 @@ bool McapMessages::next_of_stretch(McapMessage& message) {
     if (record->op != McapOp::message) continue;
     if (!file_.read_content(*record, kMessageHeadBytes, bytes_) || !parse(bytes_, message)) {
       skip(record->at, "the message's record is damaged");
+    } else if (record->size > kMaxMcapChunkBytes) {
+      skip(record->at, "the message is larger than any that is read");
     } else if (channels_.contains(message.channel_id) && file_.read_content(*record, record->size, bytes_) &&
                parse(bytes_, message)) {
       return true;
