@@ -10,7 +10,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   auto* command = app.add_subcommand("localize", "Find the robot's pose for every scan of a recording");
   auto words = std::make_shared<LocalizeWords>();
   command
-      ->add_option("recording", words->recording, "The recording: CARMEN log, rostopic echo text, ROS 1 bag")
+      ->add_option("recording", words->recording,
+                   "The recording: MCAP, ROS 1 bag, CARMEN log, rostopic echo text")
       ->required();
   command->add_option("--map", words->map, "The map: floor plan YAML, or map_server YAML")->required();
   command->add_option("--out", words->out, "Folder for trajectory, estimates, config, report and summary");
@@ -42,6 +43,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Keep the last good pose in a file, for --start resume:FILE");
   command->add_option("--blackbox", words->black_box,
                       "Folder for the last half minute of events whenever the robot loses its way");
+  command->add_option("--out-mcap", words->out_mcap,
+                      "MCAP file with the scans, poses, transforms and diagnostics, for viewers");
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "beaconless/io/mcap_events.hpp"
 #include "beaconless/localize/make_localizer.hpp"
 
 #include "localize_inputs.hpp"
@@ -84,10 +85,19 @@ Result<Done> localize_drive(const LocalizeWords& words, const LocalizePlan& plan
   if (!ready) return ready.error();
   const auto [started, start] = *std::move(ready);
   RunWatch watch(console, words, plan, map, start);
-  run.replay =
-      replay(inputs.recording, plan.scans, *started, plan.config.base_from_laser, console, inputs.start_at,
-             [&](const Event& event, const PoseEstimate& estimate) { watch.update(event, estimate); });
+  std::optional<io::McapEventWriter> mcap;
+  if (!words.out_mcap.empty()) mcap.emplace(words.out_mcap);
+  if (mcap && !mcap->good()) return mcap->finish().error();
+  const Pose2& base_from_laser = plan.config.base_from_laser;
+  run.replay = replay(inputs.recording, plan.scans, *started, base_from_laser, console, inputs.start_at,
+                      [&](const Event& event, const PoseEstimate& estimate) {
+                        watch.update(event, estimate);
+                        const auto* scan = std::get_if<Scan>(&event);
+                        if (mcap && scan != nullptr) mcap->write(*scan, estimate, base_from_laser);
+                      });
   watch.finish();
+  if (mcap)
+    if (auto written = mcap->finish(); !written) return written.error();
   const auto* resuming = dynamic_cast<const ResumingLocalizer*>(started.get());
   if (resuming != nullptr && resuming->has_searched())
     console.note("the first scans do not fit at the last pose: the robot was searched everywhere");
