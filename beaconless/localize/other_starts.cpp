@@ -10,6 +10,7 @@ namespace beaconless {
 namespace {
 
 constexpr double kBetter = 0.01;     // in misfit, before a start is preferred to one that was found first
+constexpr int kThroughStride = 8;    // scans
 constexpr double kLostWindow = 2.5;  // how much wider a lost robot searches
 constexpr double kVague_m = 0.1;     // a prediction less certain than this is not gone by …
 constexpr double kVague_rad = radians(5.0);  // … where the whole scan tells better
@@ -43,8 +44,10 @@ OtherStarts::Fits OtherStarts::fit(const MatchResult& first, const Prediction& p
       fits.whole_scan = fit_whole_scan(starts, prediction);
     return fits;
   }
-  // 2. One through walls: it may lie on a wall's other face.
-  if (is_through_walls && first.usable()) {
+  // 2. One through walls: it may lie on a wall's other face. Where that is not it, the building has changed,
+  //    and every scan would be fitted in vain.
+  through_scans_ = is_through_walls ? through_scans_ + 1 : 0;
+  if (is_through_walls && first.usable() && through_scans_ % kThroughStride == 1) {
     fits.best = fit_by_matcher(beside(first), first, prediction);
     return fits;
   }

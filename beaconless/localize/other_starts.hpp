@@ -53,6 +53,7 @@ class OtherStarts {
   Rivals* rivals_;
   LocalSearchScratch scratch_;
   std::vector<StartPose> starts_;
+  int through_scans_ = 0;  // in a row
 };
 
 }  // namespace beaconless

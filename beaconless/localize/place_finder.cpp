@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "beaconless/localize/same_place.hpp"
 #include "beaconless/match/sidesteps.hpp"
 
 namespace beaconless {
@@ -12,16 +13,14 @@ namespace {
 
 constexpr std::size_t kBeams = 400;  // that weigh a place
 constexpr std::size_t kMostViews = 8;
-constexpr double kSame_m = 0.3;  // places nearer than this, and turned by less, are one
-constexpr double kSame_rad = radians(5.0);
 constexpr double kStray_m = 0.3;  // a fit that strays further from its guess is another place
 constexpr double kStray_rad = radians(10.0);
+constexpr double kSoon_s = 0.2;     // after places have vanished, before is looked again
 constexpr double kNear_m = 0.1;     // how far ICP may be from where the walls are
 constexpr double kHeld_m = 0.3;     // a place less certain than this is not held
 constexpr double kBehind = 1.0;     // a place so far behind the best is given up …
-constexpr double kFarBehind = 1.5;  // … and so many margins
-constexpr double kAlone = 0.5;      // so far ahead of all others, and by so many margins, it is alone
-constexpr double kAloneMargins = 3.0;
+constexpr double kFarBehind = 3.0;  // … and so many margins
+constexpr double kAlone = 0.5;      // so far ahead of all others, and as many margins, it is alone
 constexpr double kMostThrough = 0.25;
 constexpr double kPromising = 0.05;  // in cost: starts this near to the best are worth a second look …
 constexpr double kBroken = 0.15;     // … where the fit explains so much less than the search promised
@@ -29,10 +28,6 @@ constexpr double kFine_m = 0.05;     // the margin is for maps that are off by t
 constexpr std::size_t kViewsOfCoarse = 6;  // that it takes on others
 constexpr double kCoarse = 1.5;            // … and grows with so many powers of what others are off by more
 constexpr double kBeamsThatCount = 20.0;   // of a scan, the others say what these do
-
-bool is_same(const Pose2& a, const Pose2& b) {
-  return distance_m(a, b) < kSame_m && heading_difference_rad(a, b) < kSame_rad;
-}
 
 /// Whether a pose is off another by more than a fit may correct.
 bool is_astray(const Pose2& a, const Pose2& b) {
@@ -75,6 +70,8 @@ void PlaceFinder::begin(const FloorPlan::Bounds& box, Wanted wanted) {
   views_.clear();
   looked_.reset();
   is_hopeless_ = true;
+  begin_from_first_ = Pose2{};
+  gone_m_ = 0.0;
   since_view_ = Pose2{};
   moved_.reset();
 }
@@ -98,11 +95,11 @@ PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector
     moved_.reset();
   else
     follow(way);
-  // 2. All that fit, with every view; where nothing does, at once, and then now and then.
+  // 2. All that fit, with every view; where nothing does, soon, and then now and then.
   const bool is_hopeless = places_.empty() || verdict() == Verdict::nothing;
-  const bool is_due =
-      !looked_ || !is_hopeless_ || std::abs(seconds_between(*looked_, stamp)) >= config_.every_s;
-  if (is_hopeless && is_due) views_.clear();
+  const double pause_s = is_hopeless_ ? config_.every_s : std::min(kSoon_s, config_.every_s);
+  const bool is_due = !looked_ || std::abs(seconds_between(*looked_, stamp)) >= pause_s;
+  if (is_hopeless && is_due) begin_anew();
   if (views_.empty() ? is_due : is_new_view()) {
     look();
     looked_ = stamp;
@@ -113,6 +110,25 @@ PlaceFinder::Verdict PlaceFinder::see(Stamp stamp, std::span<const Eigen::Vector
   const Verdict said = verdict();
   is_hopeless_ = said == Verdict::nothing;
   return said;
+}
+
+/// Forgets what was seen, but not how far off the beginning is.
+void PlaceFinder::begin_anew() {
+  if (views_.empty()) return;
+  views_.back().to_next = since_view_;
+  for (const View& view : views_) begin_from_first_ = begin_from_first_ * view.to_next;
+  gone_m_ += since_view_.translation().norm();
+  since_view_ = Pose2{};
+  views_.clear();
+}
+
+std::optional<Pose2> PlaceFinder::moved() const {
+  return !places_.empty() && places_.front().rank > 0 ? moved_ : std::nullopt;
+}
+
+FloorPlan::Bounds PlaceFinder::reachable() const {
+  const Eigen::Vector2d gone = Eigen::Vector2d::Constant(gone_m_);
+  return {(box_.low - gone).cwiseMax(map_box_.low), (box_.high + gone).cwiseMin(map_box_.high)};
 }
 
 bool PlaceFinder::is_new_view() const {
@@ -140,9 +156,13 @@ void PlaceFinder::follow(const Pose2& moved) {
 
 void PlaceFinder::look() {
   // 1. This scan is a view of its own.
-  if (!views_.empty()) views_.back().to_next = since_view_;
+  if (!views_.empty()) {
+    views_.back().to_next = since_view_;
+    gone_m_ += since_view_.translation().norm();
+  }
   if (views_.empty()) places_.clear();
   if (views_.size() == kMostViews) {
+    begin_from_first_ = begin_from_first_ * views_.front().to_next;
     views_.erase(views_.begin());
     for (Place& place : places_) place.log_likelihoods.erase(place.log_likelihoods.begin());
   }
@@ -153,7 +173,7 @@ void PlaceFinder::look() {
     place.scans_in_view = 1;
   }
   // 2. Where it fits, and how all that was seen before fits there.
-  search_everywhere(points_, nearness_, box_, config_.search, search_scratch_, starts_);
+  search_everywhere(points_, nearness_, reachable(), config_.search, search_scratch_, starts_);
   for (const StartPose& start : starts_) add(start, start.cost < starts_.front().cost + kPromising);
   if (proposed_) add({*proposed_}, false);
 }
@@ -162,15 +182,16 @@ bool PlaceFinder::add(const StartPose& start, bool is_promising) {
   Place place;
   if (!fit(points_, start.map_from_laser, place)) return false;
   const bool is_known = std::any_of(places_.begin(), places_.end(), [&](const Place& known) {
-    return is_same(known.map_from_laser, place.map_from_laser);
+    return is_same_place(known.map_from_laser, place.map_from_laser);
   });
-  if (is_known || (wanted_ && !wanted_(place.map_from_laser))) return false;
+  if (is_known) return false;
   place.now = weigh_scan(points_, *map_, place.map_from_laser, config_.sigma_m, kBeams);
   const double promised = 1.0 - start.cost;
   if (is_promising && place.now.on_map < promised - kBroken) step_aside(place);
   place.log_likelihoods.assign(views_.size(), place.now.log_likelihood);
   place.scans_in_view = 1;
-  weigh_past(place);
+  const Pose2 first = weigh_past(place);
+  if (wanted_ && !wanted_(first * begin_from_first_.inverse())) return false;
   places_.push_back(std::move(place));
   return true;
 }
@@ -185,7 +206,8 @@ void PlaceFinder::step_aside(Place& place) const {
   }
 }
 
-void PlaceFinder::weigh_past(Place& place) const {
+/// Weighs the views before; where the first of them was seen from, if it is this place.
+Pose2 PlaceFinder::weigh_past(Place& place) const {
   Pose2 then = place.map_from_laser;
   for (std::size_t view = views_.size() - 1; view-- > 0;) {
     const Pose2 guess = then * views_[view].to_next.inverse();
@@ -196,6 +218,7 @@ void PlaceFinder::weigh_past(Place& place) const {
     place.log_likelihoods[view] =
         weigh_scan(views_[view].points, *map_, then, config_.sigma_m, kBeams).log_likelihood;
   }
+  return then;
 }
 
 bool PlaceFinder::fit(std::span<const Eigen::Vector2d> points, const Pose2& guess, Place& place) const {
@@ -225,7 +248,7 @@ void PlaceFinder::sort_out() {
   for (Place& place : places_) {
     const bool is_behind = !left.empty() && place.total < left.front().total - behind;
     const bool is_known = std::any_of(left.begin(), left.end(), [&](const Place& better) {
-      return is_same(better.map_from_laser, place.map_from_laser);
+      return is_same_place(better.map_from_laser, place.map_from_laser);
     });
     if (!is_behind && !is_known) left.push_back(std::move(place));
   }
@@ -262,7 +285,7 @@ std::span<const PlaceFinder::Place> PlaceFinder::likely() const {
 
 bool PlaceFinder::is_alone() const {
   if (places_.size() < 2) return !places_.empty();
-  return places_[1].total < places_[0].total - std::max(kAlone, kAloneMargins * needed_margin());
+  return places_[1].total < places_[0].total - std::max(kAlone, kFarBehind * needed_margin());
 }
 
 double PlaceFinder::weight(const Place& place) const {

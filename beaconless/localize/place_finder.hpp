@@ -65,10 +65,11 @@ class PlaceFinder {
   PlaceFinder(const PlacesConfig& config, std::shared_ptr<const SurfaceMap> map, const IcpConfig& icp,
               const WallsConfig& walls);
 
-  /// Whether a place, map_from_laser, is one where the laser may be.
+  /// Whether a place, map_from_laser, is one where the laser may have been at the beginning.
   using Wanted = std::function<bool(const Pose2&)>;
 
-  /// Forgets all; the laser is in this box, at a place that is wanted; all are, if that is empty.
+  /// Forgets all; the laser is in this box, at a place that is wanted; all are, if that is empty. Both are of
+  /// the first scan: wherever the laser went from there it is looked for.
   void begin(const FloorPlan::Bounds& box, Wanted wanted = {});
   void begin();  ///< anywhere on the map
   /// On the part of the map that is no further off in x and y than this, from the nearest point of the map.
@@ -85,7 +86,8 @@ class PlaceFinder {
   Verdict see(Stamp stamp, std::span<const Eigen::Vector2d> points, const std::optional<Pose2>& moved);
 
   /// How the laser moved between the last two scans (before_from_now), as the likeliest place tells it.
-  const std::optional<Pose2>& moved() const { return moved_; }
+  /// Nothing where that place no longer fits.
+  std::optional<Pose2> moved() const;
 
   /// What is left, likeliest first; after Verdict::nothing the best that there is, or none.
   std::span<const Place> places() const { return places_; }
@@ -107,7 +109,9 @@ class PlaceFinder {
   void follow(const Pose2& moved);
   bool add(const StartPose& start, bool is_promising);
   void step_aside(Place& place) const;
-  void weigh_past(Place& place) const;
+  Pose2 weigh_past(Place& place) const;
+  void begin_anew();
+  FloorPlan::Bounds reachable() const;
   bool fit(std::span<const Eigen::Vector2d> points, const Pose2& guess, Place& place) const;
   void sort_out();
   Verdict verdict() const;
@@ -124,7 +128,9 @@ class PlaceFinder {
   std::span<const Eigen::Vector2d> points_;
   std::vector<Place> places_;
   std::vector<View> views_;
-  Pose2 since_view_;  // view's laser frame from the laser's now
+  Pose2 begin_from_first_;  // laser frame of the first view from that of the beginning
+  double gone_m_ = 0.0;     // since the beginning, view by view
+  Pose2 since_view_;        // view's laser frame from the laser's now
   std::optional<Pose2> moved_;
   std::optional<Pose2> proposed_;
   std::optional<Stamp> looked_;

@@ -11,10 +11,12 @@ namespace beaconless {
 namespace {
 
 constexpr double kEvery_s = 0.1;
-constexpr double kReach_m = 3.0;    // a robot that was followed has not gone further unseen
-constexpr double kAround_m = 30.0;  // where is looked
-constexpr int kAbsent = 3;          // looks, before a place is given up
-constexpr double kDoubted = 0.45;   // most quality of a pose whose place is in doubt
+constexpr double kLongest_s = 5.0;   // between looks that say nothing
+constexpr double kPatience_s = 1.0;  // … of a robot that was followed
+constexpr double kReach_m = 3.0;     // a robot that was followed has not gone further unseen
+constexpr double kAround_m = 30.0;   // where is looked
+constexpr int kAbsent = 3;           // looks, before a place is given up
+constexpr double kDoubted = 0.45;    // most quality of a pose whose place is in doubt
 
 constexpr std::string_view kLikeOthers = "another place of the map fits the scans about as well";
 constexpr std::string_view kElsewhere = "the scans fit another place of the map far better";
@@ -47,10 +49,17 @@ void PlaceWatch::begin(double reach_m) {
   seen_.reset();
   was_.reset();
   finding_ = Finding::in_doubt;
+  pause_s_ = kEvery_s;
   absent_ = 0;
 }
 
-void PlaceWatch::doubt_found() { begin(std::numeric_limits<double>::infinity()); }
+void PlaceWatch::doubt_found(Stamp stamp, const Pose2& map_from_laser) {
+  begin(std::numeric_limits<double>::infinity());
+  seen_ = stamp;
+  was_ = map_from_laser;
+  finding_ = judge(map_from_laser, true);
+  in_doubt_ = finding_ != Finding::beyond_doubt;
+}
 
 void PlaceWatch::doubt_followed(const Pose2& map_from_laser) {
   if (in_doubt_) return;
@@ -61,17 +70,29 @@ void PlaceWatch::doubt_followed(const Pose2& map_from_laser) {
 PlaceWatch::Finding PlaceWatch::see(Stamp stamp, std::span<const Eigen::Vector2d> points,
                                     const Pose2& map_from_laser, bool is_fitted) {
   if (!in_doubt_) return Finding::beyond_doubt;
-  if (seen_ && std::abs(seconds_between(*seen_, stamp)) < kEvery_s) return finding_;
+  if (seen_ && std::abs(seconds_between(*seen_, stamp)) < pause_s_) return finding_;
   // 1. Where else the scan fits, and how the places of before do.
   const auto moved = was_ ? std::optional(was_->inverse() * map_from_laser) : std::nullopt;
   finder_->propose(map_from_laser);
   const PlaceFinder::Verdict verdict = finder_->see(stamp, points, moved);
   seen_ = stamp;
   was_ = map_from_laser;
-  // 2. What that says of the place; a scan that fits nowhere says nothing.
-  if (verdict != PlaceFinder::Verdict::nothing) finding_ = judge(map_from_laser, is_fitted);
-  in_doubt_ = finding_ != Finding::beyond_doubt;
+  // 2. What that says of the place.
+  judge_or_wait(verdict, map_from_laser, is_fitted);
   return finding_;
+}
+
+/// A scan that fits nowhere says nothing, and the next ones will hardly say more: looks become rare, and a
+/// robot that was followed is believed.
+void PlaceWatch::judge_or_wait(PlaceFinder::Verdict verdict, const Pose2& map_from_laser, bool is_fitted) {
+  if (verdict != PlaceFinder::Verdict::nothing) {
+    pause_s_ = kEvery_s;
+    finding_ = judge(map_from_laser, is_fitted);
+  } else {
+    pause_s_ = std::min(2.0 * pause_s_, kLongest_s);
+    if (std::isfinite(reach_m_) && pause_s_ > kPatience_s) finding_ = Finding::beyond_doubt;
+  }
+  in_doubt_ = finding_ != Finding::beyond_doubt;
 }
 
 PlaceWatch::Finding PlaceWatch::judge(const Pose2& map_from_laser, bool is_fitted) {

@@ -14,7 +14,7 @@
 
 namespace beaconless {
 
-/// Holds the place where a robot is followed against all others of the map, as long as it is in doubt.
+/// Holds the place where a robot is followed against others of the map, as long as it is in doubt.
 ///
 /// A place found by a search of the map may be the likeliest of several: it is in doubt until a drive has
 /// left nothing else. A place where the robot was followed comes into doubt when scans stopped fitting for a
@@ -32,10 +32,13 @@ class PlaceWatch {
   /// `finder` is shared with who searches, one at a time, and outlives this.
   explicit PlaceWatch(PlaceFinder& finder) : finder_(&finder) {}
 
-  void forget();       ///< there is no doubt
-  void doubt_found();  ///< the finder has just found the place, and goes on from what it knows
+  void forget();  ///< there is no doubt
+  void doubt_found(
+      Stamp stamp,
+      const Pose2& map_from_laser);  ///< the finder has just found the place, and goes on from what it knows
   void doubt_followed(const Pose2& map_from_laser);  ///< a robot that was followed there may be elsewhere
   bool is_in_doubt() const { return in_doubt_; }
+  Finding finding() const { return in_doubt_ ? finding_ : Finding::beyond_doubt; }  ///< the last one
 
   /// Takes in a scan, laser frame, that was fitted at `map_from_laser`, or was found not to fit there.
   Finding see(Stamp stamp, std::span<const Eigen::Vector2d> points, const Pose2& map_from_laser,
@@ -43,6 +46,7 @@ class PlaceWatch {
 
  private:
   void begin(double reach_m);
+  void judge_or_wait(PlaceFinder::Verdict verdict, const Pose2& map_from_laser, bool is_fitted);
   Finding judge(const Pose2& map_from_laser, bool is_fitted);
 
   PlaceFinder* finder_;
@@ -51,7 +55,8 @@ class PlaceWatch {
   std::optional<Stamp> seen_;
   std::optional<Pose2> was_;  ///< map_from_laser then
   Finding finding_ = Finding::in_doubt;
-  int absent_ = 0;  ///< looks in a row that do not have the place among the likely ones
+  double pause_s_ = 0.0;  ///< before the next look
+  int absent_ = 0;        ///< looks in a row that do not have the place among the likely ones
 };
 
 /// Takes from the estimate of a robot that is followed what a finding leaves in doubt.

@@ -22,14 +22,10 @@ constexpr std::string_view kOpenPlace =
 }  // namespace
 
 void Relocalizer::begin(const FloorPlan::Bounds& box, int agreeing_scans, PlaceFinder::Wanted wanted) {
-  go_on(agreeing_scans);
-  finder_->begin(box, std::move(wanted));
-}
-
-void Relocalizer::go_on(int agreeing_scans) {
   agreeing_scans_ = agreeing_scans;
   agreed_scans_ = 0;
   candidates_.clear();
+  finder_->begin(box, std::move(wanted));
 }
 
 std::optional<PoseEstimate> Relocalizer::see(Stamp stamp, std::span<const Eigen::Vector2d> points,

@@ -22,10 +22,8 @@ class Relocalizer {
   Relocalizer(PlaceFinder& finder, const Pose2& laser_from_base)
       : laser_from_base_(laser_from_base), finder_(&finder) {}
 
-  /// Forgets all; the laser is in this box, and so many scans in a row must agree, or a few over a second.
+  /// Forgets all; the laser is in this box, and so many scans in a row must agree, or a few over a while.
   void begin(const FloorPlan::Bounds& box, int agreeing_scans, PlaceFinder::Wanted wanted = {});
-  /// The same, from what the finder knows.
-  void go_on(int agreeing_scans);
   void forget() { candidates_.clear(); }
 
   /// Takes in a scan: what is known of the pose, or nothing once it is found.

@@ -18,7 +18,10 @@ class SearchMotion {
       : base_from_laser_(base_from_laser), laser_from_base_(base_from_laser.inverse()) {}
 
   /// Forgets how it moved.
-  void begin() { found_.reset(); }
+  void begin() {
+    found_.reset();
+    is_unknown_ = false;
+  }
 
   /// Takes in what the wheels tell of the time since the scan before. True where the motion has just become
   /// known, so that scans were seen without it.

@@ -28,7 +28,8 @@ class Shaken {
   /// Whether the last scan was fitted well.
   bool is_fitted() const { return unfitted_scans_ == 0 && !is_weak_; }
 
-  /// Whether there is a new doubt since this was asked last. In: whether beams pass through walls now.
+  /// Whether there is a new doubt since this was asked last. In: whether beams pass through walls now. Where
+  /// doubts follow each other, as among people, they are given ever more rarely.
   bool take(Stamp stamp, bool is_through_walls);
 
  private:
@@ -37,9 +38,12 @@ class Shaken {
   bool is_long_through_walls(Stamp stamp, bool is_through_walls);
 
   bool is_shaken_ = false;
-  int unfitted_scans_ = 0;  // in a row
-  bool is_weak_ = false;    // the last fit explains little
+  int unfitted_scans_ = 0;    // in a row
+  bool is_weak_ = false;      // the last fit explains little
+  bool is_weakened_ = false;  // the same by less: a fit has just begun to explain little
   std::optional<Stamp> through_since_;
+  std::optional<Stamp> taken_;
+  double pause_s_ = 0.0;  // after the last one was taken
 };
 
 }  // namespace beaconless

@@ -94,7 +94,7 @@ PoseEstimate TrackingLocalizer::without_scan(const Event& event) const {
 std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
   // 1. How the robot moves, and what the laser saw. What was seen before that was known is seen anew, if it
   //    makes a difference.
-  const std::optional<Stamp> before = std::exchange(last_scan_, scan.stamp());
+  const std::optional<Stamp> before = last_scan_;
   const double since_s = before ? seconds_between(*before, scan.stamp()) : 0.0;
   const bool is_news =
       search_motion_.expect(before ? odometry_.between(*before, scan.stamp()) : std::nullopt);
@@ -102,33 +102,35 @@ std::optional<PoseEstimate> TrackingLocalizer::find(const Scan& scan) {
   seen_.see(scan, search_motion_.motion(), last_.map_from_base * config_.base_from_laser, kLostCovariance);
   // 2. What that tells of where it is.
   if (seen_.is_covered()) return relocalizer_.nowhere(scan.stamp(), last_.map_from_base, kCovered);
+  last_scan_ = scan.stamp();
   auto estimate = relocalizer_.see(scan.stamp(), seen_.points(),
                                    before ? search_motion_.way(since_s) : std::nullopt, last_.map_from_base);
   if (before) search_motion_.hear(finder_.moved(), since_s);
   if (estimate) return estimate;
   // 3. It is there.
-  start_at(relocalizer_.found());
-  watch_.doubt_found();
+  const Pose2 found = relocalizer_.found();
+  start_at(found);
+  watch_.doubt_found(scan.stamp(), found * config_.base_from_laser);
   return std::nullopt;
 }
 
 void TrackingLocalizer::hold_against_others(const Scan& scan) {
-  // 1. Whether there is any doubt.
-  Shaken& shaken = follower_.shaken();
-  if (shaken.is_blinded() || seen_.is_covered() || follower_.has_rivals() || last_.status == Status::lost ||
-      !config_.relocalize)
-    return;
   const Pose2 map_from_laser = last_.map_from_base * config_.base_from_laser;
-  if (shaken.take(scan.stamp(), follower_.is_through_walls())) watch_.doubt_followed(map_from_laser);
+  Shaken& shaken = follower_.shaken();
+  const bool can_tell =
+      !shaken.is_blinded() && !seen_.is_covered() && !follower_.has_rivals() && last_.status != Status::lost;
+  // 1. Whether there is any doubt.
+  if (can_tell && config_.relocalize && shaken.take(scan.stamp(), follower_.is_through_walls()))
+    watch_.doubt_followed(map_from_laser);
+  if (!watch_.is_in_doubt()) return;
   // 2. What else fits, and what that leaves of the pose.
   const PlaceWatch::Finding finding =
-      watch_.see(scan.stamp(), seen_.points(), map_from_laser, shaken.is_fitted());
+      can_tell ? watch_.see(scan.stamp(), seen_.points(), map_from_laser, shaken.is_fitted())
+               : watch_.finding();
   doubt(last_, finding);
-  // 3. One that is elsewhere is looked for, from what is known of the places.
-  if (finding != PlaceWatch::Finding::elsewhere) return;
-  is_anywhere_ = true;
-  search_motion_.begin();
-  relocalizer_.go_on(config_.health.found_after_scans);
+  // 3. One that is elsewhere may be anywhere.
+  if (finding == PlaceWatch::Finding::elsewhere && config_.relocalize)
+    search_anywhere(bounds_of(*map_), config_.health.found_after_scans);
 }
 
 /// Lost, or where the wheels say that it cannot be, unless that is the only place that fits.

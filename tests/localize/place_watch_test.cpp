@@ -85,7 +85,11 @@ TEST(PlaceWatch, APlaceThatWasFoundIsRivalledByAllOfTheMap) {
   Watched robot(test::rectangle(9.0, 6.0));
   const Pose2 pose{2.0, 2.0, 0.3};
   robot.finder.begin();
-  robot.watch.doubt_found();
+  const auto points = test::points_of(Scan::make(test::sweep(robot.walls, pose, 0.01, robot.rng)).value());
+  ASSERT_EQ(robot.finder.see(Stamp::from_seconds(-0.25), points, std::nullopt),
+            PlaceFinder::Verdict::several);
+  robot.watch.doubt_found(Stamp::from_seconds(-0.25), pose);
+  EXPECT_EQ(robot.watch.finding(), Finding::rivalled);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(robot.see(pose, pose), Finding::rivalled) << i;
 }
 

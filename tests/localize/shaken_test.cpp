@@ -23,8 +23,8 @@ TEST(Shaken, WhatShakesIsToldOnce) {
   EXPECT_TRUE(shaken.take(kStart, false));
   EXPECT_FALSE(shaken.take(kStart, false));
   shaken.see_fit(Status::ok, true);
-  EXPECT_TRUE(shaken.take(kStart, false));
-  EXPECT_FALSE(shaken.take(kStart, false));
+  EXPECT_TRUE(shaken.take(kStart + 5.0, false));
+  EXPECT_FALSE(shaken.take(kStart + 5.0, false));
 }
 
 TEST(Shaken, OnlyTheFirstOfWeakFitsShakes) {
@@ -36,7 +36,7 @@ TEST(Shaken, OnlyTheFirstOfWeakFitsShakes) {
   EXPECT_FALSE(shaken.take(kStart, false));
   shaken.see_fit(Status::ok, false);
   shaken.see_fit(Status::lost, false);
-  EXPECT_TRUE(shaken.take(kStart, false));
+  EXPECT_TRUE(shaken.take(kStart + 5.0, false));
 }
 
 TEST(Shaken, OneScanThatFitsNowhereSaysNothingAndTwoShake) {
@@ -86,6 +86,45 @@ TEST(Shaken, ScansThatLieOnTheMapShakeNothingThoughTheMethodFindsTooLittle) {
   EXPECT_TRUE(shaken.is_blinded());
   shaken.see_none(false);
   EXPECT_TRUE(shaken.take(Stamp::from_seconds(1.1), false));
+}
+
+TEST(Shaken, FitsThatTurnWeakAgainAndAgainShakeEverMoreRarely) {
+  Shaken shaken;
+  int doubts = 0;
+  for (int i = 0; i < 40 * 60; ++i) {
+    shaken.see_fit(i % 2 == 0 ? Status::ok : Status::degraded, false);
+    doubts += shaken.take(Stamp::from_seconds(0.025 * i), false) ? 1 : 0;
+  }
+  EXPECT_GE(doubts, 4);
+  EXPECT_LE(doubts, 7);  // 1, 2, 4 … s apart
+}
+
+TEST(Shaken, AJumpWaitsForASecondAtMost) {
+  Shaken shaken;
+  for (int i = 0; i < 40 * 20; ++i) {
+    shaken.see_fit(i % 2 == 0 ? Status::ok : Status::degraded, false);
+    shaken.take(Stamp::from_seconds(0.025 * i), false);
+  }
+  shaken.see_jump();
+  bool is_told = false;
+  for (int i = 0; i <= 40 && !is_told; ++i)
+    is_told = shaken.take(Stamp::from_seconds(20.0 + 0.025 * i), false);
+  EXPECT_TRUE(is_told);
+}
+
+TEST(Shaken, AfterAQuietMinuteADoubtIsTheFirstAgain) {
+  Shaken shaken;
+  for (int i = 0; i < 5; ++i) {
+    shaken.see_fit(Status::ok, false);
+    shaken.see_fit(Status::degraded, false);
+    shaken.take(Stamp::from_seconds(4.0 * i), false);
+  }
+  shaken.see_fit(Status::ok, false);
+  shaken.see_fit(Status::degraded, false);
+  EXPECT_TRUE(shaken.take(Stamp::from_seconds(120.0), false));
+  shaken.see_fit(Status::ok, false);
+  shaken.see_fit(Status::degraded, false);
+  EXPECT_TRUE(shaken.take(Stamp::from_seconds(121.5), false));
 }
 
 }  // namespace

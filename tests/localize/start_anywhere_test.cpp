@@ -90,6 +90,51 @@ TEST(StartAnywhere, ARegionIsOfTheBaseWhereverTheLaserIs) {
   EXPECT_LT(distance_m(estimate.map_from_base, base), 0.02);
 }
 
+/// Two like rooms, and a third 70 m off that is like no other.
+FloorPlan far_apart(bool with_look_alike) {
+  FloorPlan plan;
+  const auto add = [&plan](const FloorPlan& room, double x_m) {
+    for (FloorPlan::Polyline wall : room.walls) {
+      for (Eigen::Vector2d& corner : wall) corner.x() += x_m;
+      plan.walls.push_back(wall);
+    }
+  };
+  add(test::rectangle(6.0, 4.5), 0.0);
+  if (with_look_alike) add(test::niche_room(), 15.0);
+  add(test::niche_room(), 70.0);
+  // What tells the third room from the second: a pillar by the wall.
+  plan.walls.push_back({{70.5, 0.5}, {71.3, 0.5}, {71.3, 1.0}, {70.5, 1.0}, {70.5, 0.5}});
+  return plan;
+}
+
+TEST(StartAnywhere, CarriedFurtherThanALookAlikeItIsFoundWhereItIs) {
+  for (const bool with_look_alike : {false, true}) {
+    Robot robot(far_apart(with_look_alike), SearchRegion{{3.0, 2.0}, 4.0});
+    robot.localizer->start_at({2.0, 1.5, 0.4});
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(robot.see_from({2.0, 1.5, 0.4}).ok()) << i;
+    PoseEstimate estimate;
+    const Pose2 after{74.0, 3.0, 2.0};
+    for (int i = 0; i < 60; ++i) {
+      estimate = robot.see_from(after);
+      if (estimate.ok()) {
+        ASSERT_LT(distance_m(estimate.map_from_base, after), 0.1) << i << with_look_alike;
+      }
+    }
+    EXPECT_TRUE(estimate.ok()) << with_look_alike << ": " << estimate.reason;
+  }
+}
+
+TEST(StartAnywhere, ARegionIsOfTheStartNotOfTheDriveFromThere) {
+  // The like place of a rectangle is ruled out by the region, wherever the robot goes.
+  Robot robot(test::rectangle(9.0, 6.0), SearchRegion{{2.0, 2.0}, 1.5});
+  for (int i = 0; i < 100; ++i) {
+    const Pose2 pose{1.5 + 0.05 * i, 1.5 + 0.02 * i, 0.3};
+    const PoseEstimate estimate = robot.see_from(pose);
+    ASSERT_TRUE(estimate.ok()) << i << estimate.reason;
+    ASSERT_LT(distance_m(estimate.map_from_base, pose), 0.05) << i;
+  }
+}
+
 TEST(StartAnywhere, CarriedToWhereSomethingNearFitsWellEnoughItIsNeverOkAndWrong) {
   // Racks repeat: half a metre and a turn beside the robot most of the scan fits once more.
   Robot robot(test::rack_hall(), {});
