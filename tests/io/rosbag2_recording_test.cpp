@@ -260,5 +260,22 @@ TEST(Rosbag2, MutatedBagsEndInWordsNotInACrash) {
   EXPECT_GT(opened, 20);  // else nothing behind the header was tried
 }
 
+TEST(Rosbag2, ATurtlebotsBagIsReadWhole) {
+  const std::string path = recorded("turtlebot4/macfirst_floor_take_2");
+  if (path.empty()) GTEST_SKIP() << "no recordings here";
+  const Pass pass = pass_over(path);
+  ASSERT_FALSE(pass.error) << *pass.error;
+  EXPECT_THAT(pass.problems, IsEmpty());
+  ASSERT_THAT(pass.scans, SizeIs(357));  // as metadata.yaml counts them
+  EXPECT_EQ(pass.scans.front().size(), 720U);
+  EXPECT_EQ(pass.events, pass_over(path + "/macfirst_floor_take_2_0.db3").events);
+  std::size_t wheels = 0;
+  for (const Odometry& odometry : pass.odometry) wheels += odometry.source == "/odom" ? 1 : 0;
+  EXPECT_EQ(wheels, 920U);
+  const auto recording = io::open_recording(path).value();
+  ASSERT_TRUE(recording.laser_place());
+  EXPECT_NEAR(recording.laser_place()->base_from_laser.theta_rad, 0.5 * kPi, 1e-3);
+}
+
 }  // namespace
 }  // namespace beaconless
