@@ -36,6 +36,7 @@ io::McapCompression compression_of(const std::string& word) {
 
 Copied copy(const io::Recording& from, const io::ScanSelection& scans, io::RecordingWriter& to) {
   Copied copied;
+  if (const auto& place = from.laser_place()) copied.base_from_laser = place->base_from_laser;
   std::uint64_t index = 0;
   const auto pass = from.open_pass();
   while (to.good()) {

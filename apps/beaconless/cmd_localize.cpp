@@ -30,8 +30,9 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Where the base is: x,y,deg, auto (anywhere), near:x,y,radius, resume:FILE");
   command->add_option("--start-from", words->start_from,
                       "Start pose from a TUM file, or 'recorded': from the recording");
-  command->add_option("--base-from-laser", words->base_from_laser,
-                      "The laser on the robot, x,y,deg (default 0,0,0)");
+  command->add_option(
+      "--base-from-laser", words->base_from_laser,
+      "The laser on the robot, x,y,deg (default: as tf_static in the recording tells, else 0,0,0)");
   command->add_option("--reference", words->reference, "Poses to compare with: a TUM file, or 'recorded'");
   command->add_option("--pose-topic", words->pose_topic,
                       "Which poses 'recorded' means, where there are several");

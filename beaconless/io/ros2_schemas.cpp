@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "beaconless/io/ros_events.hpp"
+
 namespace beaconless::io {
 namespace {
 
@@ -87,11 +89,7 @@ void gather(const Definition& of, std::vector<const Definition*>& found) {
 }  // namespace
 
 std::string ros2_schema(std::string_view name) {
-  constexpr std::string_view kMiddle = "/msg/";
-  std::string short_name(name);
-  if (const std::size_t at = short_name.find(kMiddle); at != std::string::npos)
-    short_name.replace(at, kMiddle.size(), "/");
-  const Definition* definition = find(short_name);
+  const Definition* definition = find(short_type(name));
   if (definition == nullptr) return "";
   std::vector<const Definition*> parts;
   gather(*definition, parts);

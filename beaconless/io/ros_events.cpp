@@ -18,13 +18,6 @@ constexpr std::string_view kOdometry = "nav_msgs/Odometry";
 constexpr std::string_view kPose = "geometry_msgs/PoseStamped";
 constexpr std::string_view kPoseWithCovariance = "geometry_msgs/PoseWithCovarianceStamped";
 
-/// "sensor_msgs/LaserScan" of "sensor_msgs/msg/LaserScan".
-std::string short_type(std::string_view type) {
-  std::string name(type);
-  if (const std::size_t at = name.find("/msg/"); at != std::string::npos) name.erase(at, 4);
-  return name;
-}
-
 class RosEvents : public EventStream {
  public:
   RosEvents(std::string path, std::unique_ptr<RosMessageSource> source, RecordingOptions options)
@@ -117,6 +110,12 @@ class RosEvents : public EventStream {
 };
 
 }  // namespace
+
+std::string short_type(std::string_view type) {
+  std::string name(type);
+  if (const std::size_t at = name.find("/msg/"); at != std::string::npos) name.erase(at, 4);
+  return name;
+}
 
 bool is_laser_scan_type(std::string_view type) { return short_type(type) == "sensor_msgs/LaserScan"; }
 

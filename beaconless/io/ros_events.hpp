@@ -13,6 +13,9 @@
 
 namespace beaconless::io {
 
+/// "sensor_msgs/LaserScan" of "sensor_msgs/msg/LaserScan".
+std::string short_type(std::string_view type);
+
 /// Whether messages of a type are laser scans; both ways to write a type are known, here as below.
 bool is_laser_scan_type(std::string_view type);
 
