@@ -17,6 +17,7 @@ install(TARGETS ${targets} EXPORT beaconlessTargets ARCHIVE DESTINATION "${CMAKE
 install(EXPORT beaconlessTargets NAMESPACE beaconless:: DESTINATION "${package_dir}")
 
 # Static libraries hand their dependencies on: a user's CMake has to find them as ours did.
+install(FILES cmake/FindLZ4.cmake cmake/FindZstd.cmake DESTINATION "${package_dir}")
 set(BEACONLESS_HAS_ROSBAG1 OFF)
 if(TARGET beaconless_rosbag1)
   set(BEACONLESS_HAS_ROSBAG1 ON)

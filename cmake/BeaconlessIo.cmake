@@ -5,10 +5,13 @@ find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(LZ4 REQUIRED)
+find_package(Zstd REQUIRED)
 
 set(rosbag1_sources rosbag1_bag.cpp rosbag1_survey.cpp)
 beaconless_module(io PUBLIC beaconless_map beaconless_sim PRIVATE yaml-cpp ZLIB::ZLIB PNG::PNG nlohmann_json::nlohmann_json
-                  fmt::fmt EXCLUDE ${rosbag1_sources})
+                  fmt::fmt SQLite::SQLite3 LZ4::LZ4 Zstd::Zstd EXCLUDE ${rosbag1_sources})
 
 # ROS 1 bags: everything that includes ROS is behind this one C++17 library, whose headers are plain structs.
 if(BEACONLESS_WITH_ROSBAG1)

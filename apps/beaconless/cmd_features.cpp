@@ -20,7 +20,8 @@ void add_features(CLI::App& app, Console& console, int& exit_code) {
       app.add_subcommand("features", "Find lines, corners and keypoints in the scans of a recording");
   auto words = std::make_shared<FeaturesWords>();
   command
-      ->add_option("recording", words->recording, "The recording: CARMEN log, rostopic echo text, ROS 1 bag")
+      ->add_option("recording", words->recording,
+                   "The recording: MCAP, ROS 1 bag, CARMEN log, rostopic echo text")
       ->required();
   command
       ->add_option("--detector", words->detectors,

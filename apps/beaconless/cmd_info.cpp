@@ -8,6 +8,7 @@
 #include "beaconless/io/map_io.hpp"
 
 #include "commands.hpp"
+#include "laser_words.hpp"
 
 namespace beaconless::cli {
 namespace {
@@ -88,6 +89,7 @@ void say_recording(const Console& console, const io::RecordingSummary& s) {
                     100 * s.share(s.hits), 100 * s.share(s.no_returns), 100 * s.share(s.too_close),
                     100 * s.share(s.invalid)));
   }
+  if (s.laser_place) console.say("laser    " + laser_words(*s.laser_place));
   for (const io::PoseSource& source : s.references)
     console.say(fmt::format("poses    {}: {}, {:.1f} m", source.name, source.count, source.path_length_m));
   for (const io::PoseSource& source : s.odometry)
@@ -104,11 +106,17 @@ nlohmann::json to_json(const io::RecordingSummary& s) {
   for (const auto& source : s.references) references.push_back(to_json(source));
   nlohmann::json odometry = nlohmann::json::array();
   for (const auto& source : s.odometry) odometry.push_back(to_json(source));
+  nlohmann::json laser = nullptr;
+  if (s.laser_place) {
+    const Pose2& at = s.laser_place->base_from_laser;
+    laser = {at.x_m, at.y_m, at.theta_rad};
+  }
   nlohmann::json range_max = nullptr;
   if (std::isfinite(s.range_max_m)) range_max = s.range_max_m;
   return {{"kind", "recording"},
           {"format", s.format},
           {"scan_topic", s.scan_topic},
+          {"base_from_laser", laser},
           {"topics", topics},
           {"scans", s.scans},
           {"duration_s", s.duration_s},

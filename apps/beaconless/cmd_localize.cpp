@@ -10,7 +10,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   auto* command = app.add_subcommand("localize", "Find the robot's pose for every scan of a recording");
   auto words = std::make_shared<LocalizeWords>();
   command
-      ->add_option("recording", words->recording, "The recording: CARMEN log, rostopic echo text, ROS 1 bag")
+      ->add_option("recording", words->recording,
+                   "The recording: MCAP, ROS 1 bag, CARMEN log, rostopic echo text")
       ->required();
   command->add_option("--map", words->map, "The map: floor plan YAML, or map_server YAML")->required();
   command->add_option("--out", words->out, "Folder for trajectory, estimates, config, report and summary");
@@ -29,8 +30,9 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Where the base is: x,y,deg, auto (anywhere), near:x,y,radius, resume:FILE");
   command->add_option("--start-from", words->start_from,
                       "Start pose from a TUM file, or 'recorded': from the recording");
-  command->add_option("--base-from-laser", words->base_from_laser,
-                      "The laser on the robot, x,y,deg (default 0,0,0)");
+  command->add_option(
+      "--base-from-laser", words->base_from_laser,
+      "The laser on the robot, x,y,deg (default: as tf_static in the recording tells, else 0,0,0)");
   command->add_option("--reference", words->reference, "Poses to compare with: a TUM file, or 'recorded'");
   command->add_option("--pose-topic", words->pose_topic,
                       "Which poses 'recorded' means, where there are several");
@@ -42,6 +44,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Keep the last good pose in a file, for --start resume:FILE");
   command->add_option("--blackbox", words->black_box,
                       "Folder for the last half minute of events whenever the robot loses its way");
+  command->add_option("--out-mcap", words->out_mcap,
+                      "MCAP file with the scans, poses, transforms and diagnostics, for viewers");
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")

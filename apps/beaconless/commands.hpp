@@ -14,6 +14,7 @@ void add_localize(CLI::App& app, Console& console, int& exit_code);
 void add_evaluate(CLI::App& app, Console& console, int& exit_code);
 void add_map(CLI::App& app, Console& console, int& exit_code);
 void add_poses(CLI::App& app, Console& console, int& exit_code);
+void add_convert(CLI::App& app, Console& console, int& exit_code);
 void add_info(CLI::App& app, Console& console, int& exit_code);
 void add_doctor(CLI::App& app, Console& console, int& exit_code);
 void add_features(CLI::App& app, Console& console, int& exit_code);

@@ -56,7 +56,8 @@ Result<Done> start_from_poses(const LocalizeWords& words, const LocalizePlan& pl
                               ProblemLog& problems) {
   auto poses = poses_of(words.start_from, inputs.recording, words.pose_topic, problems);
   if (!poses) return poses.error();
-  if (poses->tells_laser_apart() && words.base_from_laser.empty() && words.config.empty()) {
+  const bool is_placed = inputs.recording.laser_place().has_value();  // and told about by itself
+  if (!is_placed && poses->tells_laser_apart() && words.base_from_laser.empty() && words.config.empty()) {
     const Pose2& told = *poses->base_from_laser;
     problems.add(
         {words.recording, fmt::format("the log says that the laser sits at {:.3f},{:.3f},{:.1f} on the "

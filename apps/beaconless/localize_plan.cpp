@@ -32,8 +32,9 @@ Result<Done> check_together(const LocalizeWords& words, const LocalizePlan& plan
     return Error{"--windows", "every window is to be found anew, without a pose",
                  "give --start auto or --start near:x,y,radius"};
   if (plan.windows || plan.alone)
-    for (const auto& [option, value] :
-         {std::pair{"--save-pose", words.save_pose}, {"--blackbox", words.black_box}})
+    for (const auto& [option, value] : {std::pair{"--save-pose", words.save_pose},
+                                        {"--blackbox", words.black_box},
+                                        {"--out-mcap", words.out_mcap}})
       if (!value.empty())
         return Error{option, "there is no drive where scans are taken by themselves",
                      "leave it out, or --alone and --windows"};

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "beaconless/io/mcap_events.hpp"
 #include "beaconless/localize/make_localizer.hpp"
 
+#include "laser_words.hpp"
 #include "localize_inputs.hpp"
 #include "localize_plan.hpp"
 #include "localizer_config_of.hpp"
@@ -25,6 +27,16 @@ Trajectory reference_of(const Replay& replay, const PosesOf& poses) {
     if (const auto pose = poses.at(replay.scan_indices[i], replay.estimates[i].stamp))
       reference.add(replay.estimates[i].stamp, *pose);
   return reference;
+}
+
+/// What was asked for, with the laser where the recording says that it sits unless it was told here.
+LocalizePlan placed(LocalizePlan plan, const LocalizeWords& words, const io::Recording& recording,
+                    const Console& console) {
+  const auto& told = recording.laser_place();
+  if (!told || !words.base_from_laser.empty() || plan.config.base_from_laser != Pose2{}) return plan;
+  console.note(laser_words(*told));
+  plan.config.base_from_laser = told->base_from_laser;
+  return plan;
 }
 
 /// Takes every window by itself; its estimate is that of its last scan.
@@ -84,10 +96,19 @@ Result<Done> localize_drive(const LocalizeWords& words, const LocalizePlan& plan
   if (!ready) return ready.error();
   const auto [started, start] = *std::move(ready);
   RunWatch watch(console, words, plan, map, start);
-  run.replay =
-      replay(inputs.recording, plan.scans, *started, plan.config.base_from_laser, console, inputs.start_at,
-             [&](const Event& event, const PoseEstimate& estimate) { watch.update(event, estimate); });
+  std::optional<io::McapEventWriter> mcap;
+  if (!words.out_mcap.empty()) mcap.emplace(words.out_mcap);
+  if (mcap && !mcap->good()) return mcap->finish().error();
+  const Pose2& base_from_laser = plan.config.base_from_laser;
+  run.replay = replay(inputs.recording, plan.scans, *started, base_from_laser, console, inputs.start_at,
+                      [&](const Event& event, const PoseEstimate& estimate) {
+                        watch.update(event, estimate);
+                        const auto* scan = std::get_if<Scan>(&event);
+                        if (mcap && scan != nullptr) mcap->write(*scan, estimate, base_from_laser);
+                      });
   watch.finish();
+  if (mcap)
+    if (auto written = mcap->finish(); !written) return written.error();
   const auto* resuming = dynamic_cast<const ResumingLocalizer*>(started.get());
   if (resuming != nullptr && resuming->has_searched())
     console.note("the first scans do not fit at the last pose: the robot was searched everywhere");
@@ -100,32 +121,33 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   // 1. What was asked for.
   if (auto config_file = check_config_file(words.config); !config_file)
     return console.fail(config_file.error());
-  const auto plan = plan_of(words);
-  if (!plan) return console.fail(plan.error(), exit_usage);
+  const auto asked = plan_of(words);
+  if (!asked) return console.fail(asked.error(), exit_usage);
   // 2. Open what is to be read.
   if (!words.out.empty())
     if (auto made = make_folder(words.out); !made) return console.fail(made.error());
   ProblemLog problems;
-  const auto inputs = open_inputs(console, words, *plan, problems);
+  const auto inputs = open_inputs(console, words, *asked, problems);
   if (!inputs) return console.fail(inputs.error());
   // 3. Localize.
-  const LocalizerConfig& config = plan->config;
+  const LocalizePlan plan = placed(*asked, words, inputs->recording, console);
+  const LocalizerConfig& config = plan.config;
   auto localizer = make_localizer(config, *inputs->map);
   if (!localizer && localizer.error().where == "map")
     return console.fail({words.map, localizer.error().what, localizer.error().remedy});
   if (!localizer) return console.fail(localizer.error(), exit_usage);
   Run run{.config = config, .map = inputs->map, .first_scan = inputs->first.scan};
   problems.listening = true;
-  if (plan->windows) {
-    localize_windows(*plan, *inputs, **localizer, console, run);
+  if (plan.windows) {
+    localize_windows(plan, *inputs, **localizer, console, run);
   } else {
-    if (auto driven = localize_drive(words, *plan, *inputs, *std::move(localizer), console, run); !driven)
+    if (auto driven = localize_drive(words, plan, *inputs, *std::move(localizer), console, run); !driven)
       return console.fail(driven.error());
   }
   if (run.replay.estimates.empty())
     return console.fail(
-        plan->windows ? Error{words.recording, "it has no window of that many scans", "shorten --windows"}
-                      : Error{words.recording, "its scans are gone", "did it change while it was read?"});
+        plan.windows ? Error{words.recording, "it has no window of that many scans", "shorten --windows"}
+                     : Error{words.recording, "its scans are gone", "did it change while it was read?"});
   if (inputs->reference) run.reference = reference_of(run.replay, *inputs->reference);
   run.problems = problems.lines();
   problems.report(console);

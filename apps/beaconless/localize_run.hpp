@@ -27,6 +27,7 @@ struct LocalizeWords {
   std::string windows;
   std::string save_pose;
   std::string black_box;
+  std::string out_mcap;
   std::string config;
   std::vector<std::string> set;
   double sigma_m = 0.0;  ///< 0: the config's

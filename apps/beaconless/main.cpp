@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
   add_simulate(app, console, exit_code);
   add_map(app, console, exit_code);
   add_poses(app, console, exit_code);
+  add_convert(app, console, exit_code);
   add_info(app, console, exit_code);
   add_doctor(app, console, exit_code);
   add_features(app, console, exit_code);

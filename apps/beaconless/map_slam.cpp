@@ -18,6 +18,7 @@
 #include "beaconless/report/map_view.hpp"
 #include "beaconless/slam/hector_slam.hpp"
 
+#include "laser_words.hpp"
 #include "poses_of.hpp"
 #include "slam_parameters.hpp"
 
@@ -155,8 +156,12 @@ void tell(const Console& console, const MapSlamWords& words, const OccupancyGrid
                   {"update_us", {{"median", times.median}, {"p95", times.p95}, {"max", times.max}}}});
 }
 
-/// Where a log that tells laser and robot apart says that the laser sits.
+/// Where the recording says that the laser sits: its fixed frames, or a log that tells laser and robot apart.
 std::optional<Pose2> told_place(const Console& console, const io::Recording& recording) {
+  if (const auto& told = recording.laser_place()) {
+    console.note(laser_words(*told));
+    return told->base_from_laser;
+  }
   ProblemLog unheard;
   const auto poses = poses_of("recorded", recording, "", unheard);
   if (!poses || !poses->tells_laser_apart()) return std::nullopt;

@@ -87,6 +87,7 @@ std::optional<Pose2> PosesOf::at(std::size_t scan_index, Stamp stamp) const {
 Result<PosesOf> poses_of(const std::string& tum_or_recorded, const io::Recording& recording,
                          const std::string& topic, ProblemLog& problems) {
   PosesOf poses;
+  if (const auto& told = recording.laser_place()) poses.base_from_laser = told->base_from_laser;
   if (tum_or_recorded != "recorded") {
     auto trajectory = io::read_tum(tum_or_recorded, [&](const io::Problem& p) { problems.add(p); });
     if (!trajectory) return trajectory.error();
@@ -101,7 +102,7 @@ Result<PosesOf> poses_of(const std::string& tum_or_recorded, const io::Recording
   poses.source = *chosen;
   poses.trajectory = Trajectory(std::move(source.poses));
   poses.by_scan = std::move(source.by_scan);
-  poses.base_from_laser = source.base_from_laser;
+  if (source.base_from_laser) poses.base_from_laser = source.base_from_laser;
   return poses;
 }
 

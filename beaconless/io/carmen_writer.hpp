@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "beaconless/event.hpp"
+#include "beaconless/io/raw_from.hpp"
 #include "beaconless/scan/raw_scan.hpp"
 
 namespace beaconless::io {
@@ -49,11 +50,5 @@ class CarmenWriter {
   bool good_ = false;
   RawScan last_;  ///< its ranges stay empty: what the PARAM lines have said so far
 };
-
-/// The sweep that Scan::make turns into this scan again.
-///
-/// Differs: bearings of a sweep that ran clockwise may come back changed in the last bit, and beams that the
-/// gate refused are the same kind of nothing (+inf, -inf, NaN), not the number they were.
-RawScan raw_from(const Scan& scan);
 
 }  // namespace beaconless::io

@@ -231,6 +231,7 @@ RecordingSummary summarize(const Recording& recording) {
   summary.format = recording.format();
   summary.scan_topic = recording.scan_topic();
   summary.topics = recording.topics();
+  summary.laser_place = recording.laser_place();
   Summarizer summarizer(summary);
   const auto pass = recording.open_pass();
   while (const auto event = pass->next()) std::visit([&](const auto& e) { summarizer.see(e); }, *event);

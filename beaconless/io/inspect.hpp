@@ -30,6 +30,7 @@ struct RecordingSummary {
   std::string format;
   std::string scan_topic;
   std::vector<Topic> topics;
+  std::optional<LaserPlace> laser_place;  ///< as the recording tells it once and for all
   std::uint64_t skipped_records = 0;
 
   std::uint64_t scans = 0;

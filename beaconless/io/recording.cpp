@@ -11,7 +11,10 @@
 #include "beaconless/io/carmen_log.hpp"
 #include "beaconless/io/float_text.hpp"
 #include "beaconless/io/line_reader.hpp"
+#include "beaconless/io/mcap_recording.hpp"
+#include "beaconless/io/mcap_records.hpp"
 #include "beaconless/io/rosbag1_recording.hpp"
+#include "beaconless/io/rosbag2_recording.hpp"
 #include "beaconless/io/rostopic_echo.hpp"
 #include "beaconless/io/text_table.hpp"
 #include "beaconless/io/whole_file.hpp"
@@ -22,7 +25,8 @@ namespace {
 using namespace std::string_literals;
 
 constexpr const char* kKnown =
-    "known are ROS 1 bags 2.0, CARMEN logs and `rostopic echo` text, the last two also gzipped";
+    "known are ROS 2 bags (.db3, .db3.zstd, folders), MCAP files, ROS 1 bags 2.0, CARMEN logs "
+    "and the text of `ros2 topic echo` and `rostopic echo`, text also gzipped";
 
 struct Magic {
   std::string bytes;
@@ -33,10 +37,6 @@ struct Magic {
 /// Formats that are recognised in order to say what they are.
 const std::vector<Magic>& not_read() {
   static const std::vector<Magic> kList{
-      {"SQLite format 3\0"s, "is an SQLite database, as rosbag2 writes (.db3): not read yet",
-       "convert it with `rosbags-convert`, or echo the scans to text with `ros2 topic echo --full-length`"},
-      {"\x89MCAP0\r\n"s, "is an MCAP file: not read yet",
-       "convert it with `rosbags-convert`, or echo the scans to text with `ros2 topic echo --full-length`"},
       {"\x28\xB5\x2F\xFD"s, "is compressed with zstd", "unpack it with `unzstd` first"},
       {"BZh"s, "is compressed with bzip2", "unpack it with `bunzip2` first"},
       {"\xFD\x37zXZ"s, "is compressed with xz", "unpack it with `unxz` first"},
@@ -46,7 +46,7 @@ const std::vector<Magic>& not_read() {
 }
 
 std::string raw_head(const std::string& path) {
-  std::string head(64, '\0');
+  std::string head(4096, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
@@ -106,10 +106,7 @@ Result<Recording> open_text(const std::string& path, const RecordingOptions& opt
 Result<Recording> open_recording(const std::string& path, const RecordingOptions& options) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    if (std::filesystem::exists(std::filesystem::path(path) / "metadata.yaml", ignored))
-      return Error{path, "is a rosbag2 folder: not read yet",
-                   "convert it with `rosbags-convert`, or echo the scans to text with `ros2 topic echo "
-                   "--full-length`"};
+    if (is_rosbag2_folder(path)) return open_rosbag2(path, options);
     return Error{path, "is a directory", "name the recording inside it"};
   }
   const auto size = file_size_bytes(path);
@@ -119,6 +116,8 @@ Result<Recording> open_recording(const std::string& path, const RecordingOptions
   const std::string head = raw_head(path);
   if (head.empty()) return Error{path, "cannot be read", "check its permissions"};
   if (is_rosbag(head)) return open_rosbag1(path, options);
+  if (head.starts_with(kMcapMagic)) return open_mcap(path, options);
+  if (is_rosbag2_file(head)) return open_rosbag2(path, options);
   for (const Magic& magic : not_read())
     if (head.starts_with(magic.bytes)) return Error{path, magic.what, magic.remedy};
   if (head.starts_with("\x1F\x8B") && is_rosbag(unpacked_head(path)))

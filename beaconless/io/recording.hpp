@@ -39,6 +39,14 @@ struct Topic {
   friend bool operator==(const Topic&, const Topic&) = default;
 };
 
+/// Where a recording says that its laser sits on the robot.
+struct LaserPlace {
+  Pose2 base_from_laser;
+  std::string told_by;  ///< "/tf_static, base_link -> rplidar_link"
+
+  friend bool operator==(const LaserPlace&, const LaserPlace&) = default;
+};
+
 /// A file's events in the order of the file, one at a time.
 class EventStream {
  public:
@@ -68,11 +76,15 @@ class Recording {
         open_pass_(std::move(open_pass)) {}
 
   const std::string& path() const { return path_; }
-  const std::string& format() const { return format_; }  ///< "CARMEN log", "ROS 1 bag 2.0", "rostopic echo"
+  const std::string& format() const { return format_; }  ///< "CARMEN log", "ROS 1 bag 2.0", …
   const std::string& scan_topic() const {
     return scan_topic_;
   }  ///< the one that is read; empty when there is none
   const std::vector<Topic>& topics() const { return topics_; }  ///< all that were found, also those not read
+
+  /// For the scans that are read; nothing where the recording does not tell it once and for all.
+  const std::optional<LaserPlace>& laser_place() const { return laser_place_; }
+  void set_laser_place(LaserPlace place) { laser_place_ = std::move(place); }
 
   /// A new pass, for those who want to pull events themselves.
   std::unique_ptr<EventStream> open_pass() const { return open_pass_(); }
@@ -107,6 +119,7 @@ class Recording {
   std::string format_;
   std::string scan_topic_;
   std::vector<Topic> topics_;
+  std::optional<LaserPlace> laser_place_;
   Opener open_pass_;
 };
 

@@ -7,9 +7,10 @@
 
 #include "beaconless/core/result.hpp"
 #include "beaconless/event.hpp"
+#include "beaconless/io/frame_transform.hpp"
 #include "beaconless/scan/raw_scan.hpp"
 
-namespace beaconless::io {
+namespace beaconless::io::ros1 {
 
 /// Decoders of ROS 1 messages as they lie in bags and on the wire: little-endian, packed, strings and arrays
 /// behind their uint32 length.
@@ -24,8 +25,7 @@ Result<ReferencePose> decode_pose_stamped(
 /// geometry_msgs/PoseWithCovarianceStamped; the covariance is not kept.
 Result<ReferencePose> decode_pose_with_covariance_stamped(std::span<const unsigned char> bytes);
 
-/// tf/tfMessage and tf2_msgs/TFMessage: the transforms whose parent is an odom frame ("odom", "robot1/odom",
-/// "odom_combined") and whose child is no map; `source` of each is "parent->child".
-Result<std::vector<Odometry>> decode_odom_transforms(std::span<const unsigned char> bytes);
+/// tf/tfMessage and tf2_msgs/TFMessage, as they were sent; `odometry_of` takes out the dead reckoning.
+Result<std::vector<FrameTransform>> decode_transforms(std::span<const unsigned char> bytes);
 
-}  // namespace beaconless::io
+}  // namespace beaconless::io::ros1

@@ -31,7 +31,7 @@ Rosbag1Bag::Rosbag1Bag(const std::string& path, const std::vector<std::string>& 
 
 Rosbag1Bag::~Rosbag1Bag() = default;
 
-Rosbag1Bag::Step Rosbag1Bag::next(BagMessage& message) {
+Rosbag1Bag::Step Rosbag1Bag::next(RosMessage& message) {
   if (!librosbag_) return Step::end;
   Step step = Step::broken;
   try {

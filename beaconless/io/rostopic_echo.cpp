@@ -92,8 +92,11 @@ class EchoStream : public EventStream {
 };
 
 Error abridged(const std::string& where, bool is_ros2) {
-  return {where, "the scan's arrays were left out or cut short when it was echoed",
-          is_ros2 ? "record it again with `ros2 topic echo --full-length`"
+  return {where,
+          is_ros2 ? "the scan's arrays were cut short when it was echoed: ROS 2 prints no more than 128 "
+                    "values of each"
+                  : "the scan's arrays were left out when it was echoed",
+          is_ros2 ? "record it again with `ros2 topic echo --full-length TOPIC`, without --no-arr"
                   : "record it again with `rostopic echo TOPIC`, without --noarr"};
 }
 

@@ -21,8 +21,8 @@ TEST_F(Usage, WithoutWordsItSaysWhatThereIs) {
   const Ran ran = run({});
   EXPECT_EQ(ran.exit_code, 2);
   EXPECT_EQ(ran.out, "");
-  for (const char* verb :
-       {"localize", "evaluate", "simulate", "map", "poses", "info", "doctor", "params", "demo", "Exit codes"})
+  for (const char* verb : {"localize", "evaluate", "simulate", "map", "poses", "convert", "info", "doctor",
+                           "params", "demo", "Exit codes"})
     EXPECT_THAT(ran.err, HasSubstr(verb));
 }
 
@@ -53,6 +53,7 @@ TEST_F(Usage, MissingWordsAreWrong) {
                                                {"map"},
                                                {"map", "build", "r"},
                                                {"poses", "r"},
+                                               {"convert", "r"},
                                                {"info"},
                                                {"doctor"},
                                                {"--json"}}) {
@@ -67,7 +68,7 @@ TEST_F(Usage, HelpAndVersionAreGood) {
   EXPECT_EQ(run({"--version"}).exit_code, 0);
   EXPECT_THAT(run({"--help"}).out, HasSubstr("localize"));
   for (const char* verb :
-       {"localize", "evaluate", "simulate", "map", "poses", "info", "doctor", "params", "demo"})
+       {"localize", "evaluate", "simulate", "map", "poses", "convert", "info", "doctor", "params", "demo"})
     EXPECT_EQ(run({verb, "--help"}).exit_code, 0) << verb;
 }
 
@@ -116,6 +117,7 @@ TEST_F(Call, JsonIsOneObjectAndNothingElse) {
            {"evaluate", folder.path("run/trajectory.tum"), truth(), "--align", "--map", plan()},
            {"map", "build", recording(), "--poses", truth(), "--out", grid},
            {"poses", log, "--out", folder.path("poses.tum")},
+           {"convert", recording(), folder.path("copy.mcap")},
            {"info", recording()},
            {"info", plan()},
            {"info", grid},

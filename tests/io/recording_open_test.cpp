@@ -23,8 +23,7 @@ TEST(OpenRecording, SaysWhatItMet) {
   EXPECT_THAT(refusal(folder.path("missing")), HasSubstr("no such file"));
   EXPECT_THAT(refusal(folder.write("empty", "")), HasSubstr("is empty"));
   EXPECT_THAT(refusal(folder.path("")), HasSubstr("is a directory"));
-  EXPECT_THAT(refusal(folder.write("db3", "SQLite format 3\0 and more"s)), HasSubstr("rosbag2"));
-  EXPECT_THAT(refusal(folder.write("mcap", "\x89MCAP0\r\n....")), HasSubstr("MCAP"));
+  EXPECT_THAT(refusal(folder.write("db3", "SQLite format 3\0 and more"s)), HasSubstr("is cut"));
   EXPECT_THAT(refusal(folder.write("zst", "\x28\xB5\x2F\xFD....")), HasSubstr("unzstd"));
   EXPECT_THAT(refusal(folder.write("tum", "# t x y\n1 2 3 0 0 0 0 1\n")), HasSubstr("trajectory"));
   EXPECT_THAT(refusal(folder.write("map", "image: hall.pgm\n")), HasSubstr("is a map"));
@@ -37,7 +36,7 @@ TEST(OpenRecording, SaysWhatItMet) {
 TEST(OpenRecording, ARosbag2FolderIsNamed) {
   const TempFolder folder;
   folder.write("metadata.yaml", "rosbag2_bagfile_information:\n");
-  EXPECT_THAT(refusal(folder.path("")), HasSubstr("rosbag2 folder"));
+  EXPECT_THAT(refusal(folder.path("")), HasSubstr("lists no files"));
 }
 
 TEST(OpenRecording, TheNameOfTheFileDoesNotMatter) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of real robots, kept outside the project: skipped where they are not.
+#include <algorithm>
 #include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "beaconless/io/recording_writer.hpp"
 
 #include "recording_samples.hpp"
 #include "temp_folder.hpp"
@@ -35,6 +38,33 @@ TEST_P(RealRecording, OpensAndCounts) {
   EXPECT_EQ(pass.references.size(), known.references);
   for (const Scan& scan : pass.scans) EXPECT_EQ(scan.size(), known.beams);
   EXPECT_LE(pass.problems.size(), 1U);  // the stamps of some repeat; no record is damaged
+}
+
+TEST_P(RealRecording, AnMcapFileOfItHoldsTheSameRangesAndStamps) {
+  const Known& known = GetParam();
+  const std::string path = recorded(known.name);
+  if (path.empty()) GTEST_SKIP() << known.name << " is not here; BEACONLESS_DATA names its folder";
+  const TempFolder folder;
+  const auto recording = io::open_recording(path, {.topic = known.topic}).value();
+  const auto writer = io::make_recording_writer(folder.path("copy.mcap"), {}).value();
+  for (const Event& event : recording) writer->write(event);
+  ASSERT_TRUE(writer->finish().ok());
+  const auto copy = io::open_recording(folder.path("copy.mcap")).value();
+  auto read = copy.begin();
+  std::size_t events = 0;
+  for (const Event& event : recording) {
+    ASSERT_NE(read, copy.end());
+    ASSERT_EQ(event.index(), read->index());
+    EXPECT_EQ(stamp_of(event), stamp_of(*read));
+    if (const auto* scan = std::get_if<Scan>(&event)) {
+      const Scan& same = std::get<Scan>(*read);
+      ASSERT_TRUE(std::ranges::equal(scan->ranges_m(), same.ranges_m())) << events;
+      ASSERT_TRUE(std::ranges::equal(scan->beams(), same.beams())) << events;
+    }
+    ++read;
+    ++events;
+  }
+  EXPECT_EQ(read, copy.end());
 }
 
 // Counted by `zgrep -c` in the logs and by `rosbag info` in the bags.

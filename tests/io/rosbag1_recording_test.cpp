@@ -23,7 +23,7 @@ using testing::SizeIs;
 TEST(Ros1Message, APromiseOfFourBillionBeamsAllocatesNothing) {
   std::vector<unsigned char> bytes(16 + 28 + 4, 0);  // header with an empty frame, seven floats, a length
   for (std::size_t i = bytes.size() - 4; i < bytes.size(); ++i) bytes[i] = 0xFF;
-  EXPECT_FALSE(io::decode_laser_scan(bytes));
+  EXPECT_FALSE(io::ros1::decode_laser_scan(bytes));
 }
 
 TEST(Ros1Message, NoiseNeverDecodesBeyondItsEnd) {
@@ -31,11 +31,11 @@ TEST(Ros1Message, NoiseNeverDecodesBeyondItsEnd) {
   for (int i = 0; i < 20'000; ++i) {
     std::vector<unsigned char> bytes(rng.bits() % 120);
     for (auto& byte : bytes) byte = rng.uniform() < 0.7 ? 0 : static_cast<unsigned char>(rng.bits());
-    (void)io::decode_laser_scan(bytes);
-    (void)io::decode_odometry(bytes);
-    (void)io::decode_pose_stamped(bytes);
-    (void)io::decode_pose_with_covariance_stamped(bytes);
-    (void)io::decode_odom_transforms(bytes);
+    (void)io::ros1::decode_laser_scan(bytes);
+    (void)io::ros1::decode_odometry(bytes);
+    (void)io::ros1::decode_pose_stamped(bytes);
+    (void)io::ros1::decode_pose_with_covariance_stamped(bytes);
+    (void)io::ros1::decode_transforms(bytes);
   }
 }
 

@@ -80,6 +80,15 @@ TEST(RostopicEcho, WrittenScansComeBackBitForBit) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(pass.scans[i], Scan::make(scans[i]).value());
 }
 
+TEST(RostopicEcho, FlowStyleOfRos2IsReadToo) {
+  const TempFolder folder;
+  const std::string flow = with(kRos2, "\n- .nan\n- .inf\n- 1.0\n- 0.05000000074505806\n- 2.5",
+                                " [.nan, .inf, 1.0,\n  0.05000000074505806, 2.5]");
+  const Pass pass = pass_over(folder.write("flow", flow));
+  ASSERT_THAT(pass.scans, SizeIs(1)) << flow;
+  EXPECT_EQ(pass.scans[0], pass_over(folder.write("list", kRos2)).scans.at(0));
+}
+
 TEST(RostopicEcho, AbridgedArraysAreRefusedWithTheRemedy) {
   const TempFolder folder;
   const Pass list = pass_over(folder.write("a", with(kRos2, "- 2.5", "- '...'")));
@@ -87,6 +96,12 @@ TEST(RostopicEcho, AbridgedArraysAreRefusedWithTheRemedy) {
   EXPECT_THAT(list.error->remedy, HasSubstr("--full-length"));
   const Pass flow = pass_over(folder.write("b", with(kRos2, "- .nan\n- .inf\n- 1.0\n", "- 1.0\n- '...'\n")));
   EXPECT_TRUE(flow.error);
+  EXPECT_THAT(flow.error->what, HasSubstr("no more than 128"));
+  const Pass sequence =
+      pass_over(folder.write("d", with(kRos2, "\n- .nan\n- .inf\n- 1.0\n- 0.05000000074505806\n- 2.5",
+                                       " '<sequence type: float, length: 5>'")));
+  ASSERT_TRUE(sequence.error);
+  EXPECT_THAT(sequence.error->remedy, HasSubstr("--no-arr"));
   const Pass left_out = pass_over(folder.write(
       "c", with(kRos1, "[nan, inf, 1.0, 0.050000000745058, 2.5]", "\"<array type: float32, length: 5>\"")));
   ASSERT_TRUE(left_out.error);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "beaconless/core/result.hpp"
+#include "beaconless/io/recording.hpp"
+
+namespace beaconless::io {
+
+/// Opens an MCAP file with messages of ROS 1 or ROS 2; `topic` chooses among its LaserScan topics.
+///
+/// The events are those of open_rosbag1, in the order of their log times where the file has chunks (see
+/// McapMessages); stamps are those of the messages' headers. A file that was cut, or has no summary, is read
+/// as far as it goes and told as a Problem. Errors: not an MCAP file; scans in an encoding that is not read
+/// (json, protobuf). Cost: see survey_mcap.
+Result<Recording> open_mcap(const std::string& path, const RecordingOptions& options = {});
+
+}  // namespace beaconless::io
