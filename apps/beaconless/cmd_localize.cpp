@@ -5,7 +5,6 @@
 #include "localize_run.hpp"
 
 namespace beaconless::cli {
-
 void add_localize(CLI::App& app, Console& console, int& exit_code) {
   auto* command = app.add_subcommand("localize", "Find the robot's pose for every scan of a recording");
   auto words = std::make_shared<LocalizeWords>();
@@ -30,9 +29,12 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Where the base is: x,y,deg, auto (anywhere), near:x,y,radius, resume:FILE");
   command->add_option("--start-from", words->start_from,
                       "Start pose from a TUM file, or 'recorded': from the recording");
-  command->add_option(
-      "--base-from-laser", words->base_from_laser,
-      "The laser on the robot, x,y,deg (default: as tf_static in the recording tells, else 0,0,0)");
+  command
+      ->add_option(
+          "--base-from-laser", words->lasers.places,
+          "The laser on the robot, x,y,deg (default: as tf_static in the recording tells, else 0,0,0); "
+          "of several one each")
+      ->allow_extra_args(false);
   command->add_option("--reference", words->reference, "Poses to compare with: a TUM file, or 'recorded'");
   command->add_option("--pose-topic", words->pose_topic,
                       "Which poses 'recorded' means, where there are several");
@@ -46,7 +48,10 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "Folder for the last half minute of events whenever the robot loses its way");
   command->add_option("--out-mcap", words->out_mcap,
                       "MCAP file with the scans, poses, transforms and diagnostics, for viewers");
-  command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
+  command
+      ->add_option("--topic", words->lasers.topics,
+                   "Which scans: a topic of a bag, a keyword of a log; repeated for several lasers")
+      ->allow_extra_args(false);
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")
       ->check(not_positive, "NUMBER > 0");
@@ -67,7 +72,10 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
       ->allow_extra_args(false);
   command->footer(
       "Example:  beaconless localize drive.bag --topic /scan --map hall.yaml --start 1.2,3.4,90 --out run/");
-  command->callback([&console, &exit_code, words] { exit_code = localize_run(console, *words); });
+  command->callback([&console, &exit_code, words] {
+    words->lasers.settle_one(words->scan.topic, words->base_from_laser);
+    exit_code = localize_run(console, *words);
+  });
 }
 
 }  // namespace beaconless::cli

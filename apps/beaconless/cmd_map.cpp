@@ -7,6 +7,7 @@
 #include "beaconless/map/grid_builder.hpp"
 
 #include "commands.hpp"
+#include "laser_set.hpp"
 #include "map_features_run.hpp"
 #include "map_slam.hpp"
 #include "poses_of.hpp"
@@ -21,10 +22,19 @@ struct MapWords {
   std::string poses = "recorded";
   std::string pose_topic;
   std::string base_from_laser;
+  LaserWords lasers;
   std::string out;
   GridBuilderConfig builder;
   MapSlamWords slam;
 };
+
+/// The scans of one laser, or of several.
+Result<LaserSet> open_scans(const MapWords& words, ProblemLog& problems) {
+  if (words.lasers.are_several()) return open_lasers(words.recording, words.scan, words.lasers, problems);
+  auto recording = open_recording(words.recording, words.scan, problems);
+  if (!recording) return recording.error();
+  return LaserSet{*std::move(recording), {}};
+}
 
 /// Where the laser sits: as told, else as the recording tells it with its poses, else in the base.
 Result<Pose2> laser_place(const MapWords& words, const PosesOf& poses) {
@@ -37,14 +47,17 @@ int build(const Console& console, const MapWords& words) {
   if (!scans) return console.fail(scans.error(), exit_usage);
   ProblemLog problems;
   problems.listening = false;
-  const auto recording = open_recording(words.recording, words.scan, problems);
-  if (!recording) return console.fail(recording.error());
+  const auto opened = open_scans(words, problems);
+  if (!opened) return console.fail(opened.error());
+  const auto& [recording, lasers] = *opened;
   ProblemLog pose_problems;
-  const auto poses = poses_of(words.poses, *recording, words.pose_topic, pose_problems);
+  const auto poses = poses_of(words.poses, recording, words.pose_topic, pose_problems);
   pose_problems.report(console);
   if (!poses) return console.fail(poses.error());
-  const auto base_from_laser = laser_place(words, *poses);
-  if (!base_from_laser) return console.fail(base_from_laser.error(), exit_usage);
+  const auto place = laser_place(words, *poses);
+  if (!place) return console.fail(place.error(), exit_usage);
+  const LocalizerConfig places{.base_from_laser = *place, .lasers = lasers};
+  const io::ScanSelection taken = lasers.empty() ? *scans : io::ScanSelection{};
   auto builder = GridBuilder::make(words.builder);
   if (!builder) return console.fail(builder.error(), exit_usage);
 
@@ -53,21 +66,23 @@ int build(const Console& console, const MapWords& words) {
   std::size_t used = 0;
   std::size_t without_pose = 0;
   Progress progress(console, "scan", 0);
-  for (const Event& event : *recording) {
+  for (const Event& event : recording) {
     const auto* scan = std::get_if<Scan>(&event);
     if (scan == nullptr) continue;
     const std::size_t index = scan_index++;
     progress.step();
-    const auto map_from_base = scans->wants(index) ? poses->at(index, scan->stamp()) : std::nullopt;
+    const auto map_from_base = taken.wants(index) ? poses->at(index, scan->stamp()) : std::nullopt;
     if (map_from_base) {
-      if (auto added = builder.value().add(*scan, *map_from_base * *base_from_laser); !added)
+      if (auto added =
+              builder.value().add(*scan, *map_from_base * base_from_laser_of(places, scan->frame_id()));
+          !added)
         return console.fail(
             {fmt::format("{}: scan {}", words.recording, index), added.error().what, added.error().remedy});
       ++used;
-    } else if (scans->wants(index)) {
+    } else if (taken.wants(index)) {
       ++without_pose;
     }
-    if (scans->done_after(index)) break;
+    if (taken.done_after(index)) break;
   }
   problems.report(console);
   if (without_pose > 0)
@@ -93,6 +108,8 @@ int build_by_slam(const Console& console, const CLI::App& command, const MapWord
     if (command.count(option) > 0)
       return console.fail({option, "SLAM finds the poses itself", "leave it out, or leave out --slam"},
                           exit_usage);
+  if (words.lasers.are_several())
+    return console.fail({"--topic", "--slam takes the scans of one laser", "name one --topic"}, exit_usage);
   MapSlamWords slam = words.slam;
   slam.recording = words.recording;
   slam.scan = words.scan;
@@ -139,8 +156,10 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
       ->capture_default_str();
   command->add_option("--pose-topic", words->pose_topic,
                       "Which poses 'recorded' means, where there are several");
-  command->add_option("--base-from-laser", words->base_from_laser,
-                      "The laser on the robot, x,y,deg (default: as the recording tells)");
+  command
+      ->add_option("--base-from-laser", words->lasers.places,
+                   "The laser on the robot, x,y,deg (default: as the recording tells); of several one each")
+      ->allow_extra_args(false);
   command->add_option("--resolution", words->builder.resolution_m, "Side of a cell [m]")
       ->capture_default_str();
   command->add_option("--p-occupied", words->builder.p_occupied, "Probability of a cell where a beam ends")
@@ -149,7 +168,10 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
       ->add_option("--p-free", words->builder.p_free,
                    "Probability of a cell that a beam crosses (with --slam 0.4)")
       ->capture_default_str();
-  command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
+  command
+      ->add_option("--topic", words->lasers.topics,
+                   "Which scans: a topic of a bag, a keyword of a log; repeated for several lasers")
+      ->allow_extra_args(false);
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
       ->check(CLI::IsMember({"first", "middle", "last"}))
@@ -166,8 +188,10 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
   command->footer(
       "Examples: beaconless map build drive.log --poses recorded --resolution 0.05 --out hall.yaml\n"
       "          beaconless map build drive.log --slam hector --out hall.yaml --out-poses drive.tum");
-  command->callback(
-      [&console, &exit_code, words, command] { exit_code = build_either_way(console, *command, *words); });
+  command->callback([&console, &exit_code, words, command] {
+    words->lasers.settle_one(words->scan.topic, words->base_from_laser);
+    exit_code = build_either_way(console, *command, *words);
+  });
 }
 
 }  // namespace beaconless::cli

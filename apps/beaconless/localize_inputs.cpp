@@ -8,6 +8,7 @@
 #include "beaconless/core/rng.hpp"
 #include "beaconless/io/map_io.hpp"
 
+#include "laser_set.hpp"
 #include "region_on_map.hpp"
 
 namespace beaconless::cli {
@@ -24,6 +25,14 @@ Result<FirstScan> first_scan(const io::Recording& recording, const io::ScanSelec
   return Error{recording.path(), "no scan to localize",
                index == 0 ? "the recording has no scans"
                           : "it has " + std::to_string(index) + "; --scans leaves none"};
+}
+
+/// The scans of one laser, or of several.
+Result<LaserSet> open_scans(const LocalizeWords& words, ProblemLog& problems) {
+  if (words.lasers.are_several()) return open_lasers(words.recording, words.scan, words.lasers, problems);
+  auto recording = open_recording(words.recording, words.scan, problems);
+  if (!recording) return recording.error();
+  return LaserSet{*std::move(recording), {}};
 }
 
 /// The pose at the first scan.
@@ -76,20 +85,22 @@ Result<Done> start_from_poses(const LocalizeWords& words, const LocalizePlan& pl
 Result<LocalizeInputs> open_inputs(const Console& console, const LocalizeWords& words,
                                    const LocalizePlan& plan, ProblemLog& problems) {
   // 1. The recording, the map, and the first scan.
-  auto recording = open_recording(words.recording, words.scan, problems);
-  if (!recording) return recording.error();
+  auto opened = open_scans(words, problems);
+  if (!opened) return opened.error();
+  auto& [recording, lasers] = *opened;
   auto map = io::read_map(words.map);
   if (!map) return map.error();
   if (const auto* anywhere = plan.start ? std::get_if<StartAnywhere>(&*plan.start) : nullptr;
       anywhere != nullptr && anywhere->within)
     if (auto on_map = check_on_map(words.start, *anywhere->within, *map); !on_map) return on_map.error();
-  auto first = first_scan(*recording, plan.scans);
+  auto first = first_scan(recording, plan.scans);
   if (!first) problems.report(console);
   if (!first) return first.error();
   problems.forget();
   problems.listening = false;
-  LocalizeInputs inputs{.recording = *std::move(recording),
+  LocalizeInputs inputs{.recording = std::move(recording),
                         .map = std::make_shared<const Map>(*std::move(map)),
+                        .lasers = std::move(lasers),
                         .first = *std::move(first),
                         .start = plan.start.value_or(StartAnywhere{}),
                         .start_at = {},

@@ -23,6 +23,7 @@ struct FirstScan {
 struct LocalizeInputs {
   io::Recording recording;
   std::shared_ptr<const Map> map;
+  std::vector<LaserOnRobot> lasers;  ///< where there are several
   FirstScan first;
   Start start;
   StartAt start_at;                  ///< of every scan by itself, where that was asked for

@@ -38,6 +38,8 @@ Result<Done> check_together(const LocalizeWords& words, const LocalizePlan& plan
       if (!value.empty())
         return Error{option, "there is no drive where scans are taken by themselves",
                      "leave it out, or --alone and --windows"};
+  if (words.lasers.are_several() && !words.black_box.empty())
+    return Error{"--blackbox", "it keeps the scans of one laser", "leave it out, or name one --topic"};
   return Done{};
 }
 
@@ -52,7 +54,8 @@ Result<LocalizePlan> plan_of(const LocalizeWords& words) {
   // 2. Which scans, from where.
   const auto scans = words.scan.selection();
   if (!scans) return scans.error();
-  plan.scans = *scans;
+  if (!words.lasers.are_several())
+    plan.scans = *scans;  // else each laser's are selected where all are merged
   if (words.start.empty() == words.start_from.empty())
     return Error{"start", "the start pose is not given, or given twice",
                  "give --start x,y,deg|auto|near:x,y,radius|resume:FILE or --start-from REF.tum|recorded"};

@@ -31,7 +31,8 @@ Trajectory reference_of(const Replay& replay, const PosesOf& poses) {
 
 /// What was asked for, with the laser where the recording says that it sits unless it was told here.
 LocalizePlan placed(LocalizePlan plan, const LocalizeWords& words, const io::Recording& recording,
-                    const Console& console) {
+                    const std::vector<LaserOnRobot>& lasers, const Console& console) {
+  plan.config.lasers = lasers;
   const auto& told = recording.laser_place();
   if (!told || !words.base_from_laser.empty() || plan.config.base_from_laser != Pose2{}) return plan;
   console.note(laser_words(*told));
@@ -99,12 +100,12 @@ Result<Done> localize_drive(const LocalizeWords& words, const LocalizePlan& plan
   std::optional<io::McapEventWriter> mcap;
   if (!words.out_mcap.empty()) mcap.emplace(words.out_mcap);
   if (mcap && !mcap->good()) return mcap->finish().error();
-  const Pose2& base_from_laser = plan.config.base_from_laser;
-  run.replay = replay(inputs.recording, plan.scans, *started, base_from_laser, console, inputs.start_at,
+  run.replay = replay(inputs.recording, plan.scans, *started, plan.config, console, inputs.start_at,
                       [&](const Event& event, const PoseEstimate& estimate) {
                         watch.update(event, estimate);
                         const auto* scan = std::get_if<Scan>(&event);
-                        if (mcap && scan != nullptr) mcap->write(*scan, estimate, base_from_laser);
+                        if (mcap && scan != nullptr)
+                          mcap->write(*scan, estimate, base_from_laser_of(plan.config, scan->frame_id()));
                       });
   watch.finish();
   if (mcap)
@@ -130,7 +131,7 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   const auto inputs = open_inputs(console, words, *asked, problems);
   if (!inputs) return console.fail(inputs.error());
   // 3. Localize.
-  const LocalizePlan plan = placed(*asked, words, inputs->recording, console);
+  const LocalizePlan plan = placed(*asked, words, inputs->recording, inputs->lasers, console);
   const LocalizerConfig& config = plan.config;
   auto localizer = make_localizer(config, *inputs->map);
   if (!localizer && localizer.error().where == "map")

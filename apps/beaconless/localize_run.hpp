@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "laser_set.hpp"
 #include "words.hpp"
 
 namespace beaconless::cli {
@@ -19,6 +20,7 @@ struct LocalizeWords {
   std::string line_fit;
   std::string loss;
   std::string base_from_laser;
+  LaserWords lasers;  ///< where there are several
   std::string start;
   std::string start_from;
   std::string pose_topic;

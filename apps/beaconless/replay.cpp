@@ -76,7 +76,7 @@ class PlacesLog {
 }  // namespace
 
 Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Localizer& localizer,
-              const Pose2& base_from_laser, const Console& console, const StartAt& start_at,
+              const LocalizerConfig& config, const Console& console, const StartAt& start_at,
               const HeardBy& heard_by) {
   using Clock = std::chrono::steady_clock;
   Replay run;
@@ -110,8 +110,9 @@ Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Lo
     run.estimates.push_back(estimate);
     run.scan_indices.push_back(scan_index - 1);
     run.update_us.push_back(took_us);
-    overlay.add(*scan, estimate.map_from_base * base_from_laser);
-    if (estimate.ok()) good_scans.add(*scan, estimate.map_from_base * base_from_laser);
+    const Pose2 map_from_laser = estimate.map_from_base * base_from_laser_of(config, scan->frame_id());
+    overlay.add(*scan, map_from_laser);
+    if (estimate.ok()) good_scans.add(*scan, map_from_laser);
   }
   run.skipped_records = events->skipped();
   run.overlay = overlay.take();

@@ -8,6 +8,7 @@
 #include "beaconless/io/recording.hpp"
 #include "beaconless/io/scan_selection.hpp"
 #include "beaconless/localize/localizer.hpp"
+#include "beaconless/localize/localizer_config.hpp"
 #include "beaconless/report/candidate_places.hpp"
 #include "beaconless/report/run_report.hpp"
 
@@ -32,9 +33,9 @@ using StartAt = std::function<std::optional<Pose2>(std::size_t scan_index, Stamp
 /// Who else hears what comes in and what came of it.
 using HeardBy = std::function<void(const Event& event, const PoseEstimate& estimate)>;
 
-/// Feeds the events of a recording to a localizer, scans by the selection.
+/// Feeds the events of a recording to a localizer, scans by the selection. `config` tells where lasers sit.
 Replay replay(const io::Recording& recording, const io::ScanSelection& scans, Localizer& localizer,
-              const Pose2& base_from_laser, const Console& console, const StartAt& start_at = {},
+              const LocalizerConfig& config, const Console& console, const StartAt& start_at = {},
               const HeardBy& heard_by = {});
 
 }  // namespace beaconless::cli

@@ -167,7 +167,8 @@ Result<Done> make_folder(const std::string& folder) {
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run) {
   std::optional<Judgement> judgement;
   if (const Trajectory told = told_poses(run); run.reference && !told.empty()) {
-    judgement = judge(told, *run.reference, run.map.get(),
+    const bool is_of_one = run.config.lasers.empty();  // the bound of several lasers is another
+    judgement = judge(told, *run.reference, is_of_one ? run.map.get() : nullptr,
                       eval::sensor_of(run.first_scan, run.config.icp.sigma_m), run.config.base_from_laser);
     if (judgement->evaluation.errors.empty()) {
       console.warn("no estimate has a reference at its stamp; do both use the same clock?");

@@ -8,6 +8,9 @@
 
 namespace beaconless {
 
+/// The inverse of a covariance that may hold 1e6 m² beside 1e-8 m², direction by direction. Symmetric.
+Eigen::Matrix3d information_of(const Eigen::Matrix3d& covariance);
+
 /// The covariance of two independent opinions on one pose, the first of which may know nothing along some
 /// direction.
 ///

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -24,6 +25,12 @@ struct PoseCandidate {
   double weight = 0.0;  ///< 0 … 1: how likely it is this one; those of all candidates add up to 1
 };
 
+/// What one of several lasers told last, by itself.
+struct LaserSays {
+  std::string_view frame_id;
+  PoseEstimate estimate;
+};
+
 /// A complete pipeline on a known map: events in, estimates out.
 class Localizer {
  public:
@@ -40,6 +47,9 @@ class Localizer {
   /// The places that fit, the likeliest first; empty where the pose is known, or nothing fits. Valid until
   /// the next call of any of the others.
   virtual std::span<const PoseCandidate> candidates() const = 0;
+
+  /// What each laser told last, where there are several. Valid until the next call of any of the others.
+  virtual std::span<const LaserSays> lasers() const { return {}; }
 
   /// Takes in one event. Total: any event in any state gives an estimate with a status, and no NaN.
   virtual PoseEstimate update(const Event& event) = 0;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "beaconless/core/describe.hpp"
 #include "beaconless/features/interest_regions.hpp"
@@ -23,10 +25,17 @@
 
 namespace beaconless {
 
+/// One of several lasers on a robot.
+struct LaserOnRobot {
+  std::string frame_id;  ///< of its scans, which tells them from those of the others
+  Pose2 base_from_laser;
+};
+
 /// Everything that shapes a localizer.
 struct LocalizerConfig {
   std::string method = "walls";
   Pose2 base_from_laser;  ///< where the laser sits on the robot
+  std::vector<LaserOnRobot> lasers;  ///< where there are several: then base_from_laser is not asked for
   bool deskew = true;     ///< see each beam from where the laser was, where the source tells beams' times
   WallsConfig walls;
   IcpConfig icp;
@@ -47,5 +56,8 @@ struct LocalizerConfig {
 };
 
 void describe(Fields& fields, LocalizerConfig& config);
+
+/// Where the laser sits that a scan comes from.
+const Pose2& base_from_laser_of(const LocalizerConfig& config, std::string_view frame_id);
 
 }  // namespace beaconless

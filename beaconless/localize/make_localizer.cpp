@@ -10,6 +10,7 @@
 #include "beaconless/core/suggest.hpp"
 #include "beaconless/localize/amcl_localizer.hpp"
 #include "beaconless/localize/feature_matcher.hpp"
+#include "beaconless/localize/multi_laser_localizer.hpp"
 #include "beaconless/localize/points_matcher.hpp"
 #include "beaconless/localize/tracking_localizer.hpp"
 #include "beaconless/localize/walls_matcher.hpp"
@@ -186,20 +187,27 @@ Made make_matcher(const Recipe& recipe, const LocalizerConfig& config, const Map
 
 using MadeLocalizer = Result<std::unique_ptr<Localizer>>;
 
-MadeLocalizer make_tracking(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
-  auto built = build_surface_map(recipe.fitting == Fitting::walls ? as_walls(map) : map,
-                                 config.icp.max_pair_distance_m);
+using Surfaces = std::shared_ptr<const SurfaceMap>;
+
+/// What a method needs of the map that several localizers can share.
+Result<Surfaces> make_surfaces(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
+  const double reach_m = recipe.fitting == Fitting::amcl ? config.amcl.laser_likelihood_max_dist
+                                                         : config.icp.max_pair_distance_m;
+  auto built = build_surface_map(recipe.fitting == Fitting::walls ? as_walls(map) : map, reach_m);
   if (!built) return built.error();
-  const auto surfaces = std::make_shared<const SurfaceMap>(*std::move(built));
+  return std::make_shared<const SurfaceMap>(*std::move(built));
+}
+
+MadeLocalizer make_tracking(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
+                            const Surfaces& surfaces) {
   auto matcher = make_matcher(recipe, config, map, surfaces);
   if (!matcher) return matcher.error();
   return {
       std::unique_ptr<Localizer>(std::make_unique<TrackingLocalizer>(config, surfaces, *std::move(matcher)))};
 }
 
-MadeLocalizer make_amcl(const Recipe& recipe, const LocalizerConfig& config, const Map& map) {
-  auto built = build_surface_map(map, config.amcl.laser_likelihood_max_dist);
-  if (!built) return built.error();
+MadeLocalizer make_amcl(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
+                        const Surfaces& surfaces) {
   std::unique_ptr<ScanMatcher> polish;
   const Map walls = recipe.is_polished ? as_walls(map) : Map{};
   // A grid that no walls can be read from is left to the cloud.
@@ -210,11 +218,51 @@ MadeLocalizer make_amcl(const Recipe& recipe, const LocalizerConfig& config, con
     if (!made) return made.error();
     polish = *std::move(made);
   }
-  return {std::unique_ptr<Localizer>(std::make_unique<AmclLocalizer>(
-      config, map, std::make_shared<const SurfaceMap>(*std::move(built)), std::move(polish)))};
+  return {
+      std::unique_ptr<Localizer>(std::make_unique<AmclLocalizer>(config, map, surfaces, std::move(polish)))};
+}
+
+MadeLocalizer make_one(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
+                       const Surfaces& surfaces) {
+  return recipe.fitting == Fitting::amcl ? make_amcl(recipe, config, map, surfaces)
+                                         : make_tracking(recipe, config, map, surfaces);
+}
+
+/// One a laser, on the same surfaces.
+MadeLocalizer make_several(const Recipe& recipe, const LocalizerConfig& config, const Map& map,
+                           const Surfaces& surfaces) {
+  std::vector<MultiLaserLocalizer::Laser> lasers;
+  for (const LaserOnRobot& laser : config.lasers) {
+    LocalizerConfig of_one = config;
+    of_one.lasers.clear();
+    of_one.base_from_laser = laser.base_from_laser;
+    auto made = make_one(recipe, of_one, map, surfaces);
+    if (!made) return made.error();
+    lasers.push_back({laser.frame_id, *std::move(made)});
+  }
+  return {std::unique_ptr<Localizer>(std::make_unique<MultiLaserLocalizer>(config, std::move(lasers)))};
+}
+
+Result<Done> check_lasers(const std::vector<LaserOnRobot>& lasers) {
+  for (std::size_t i = 0; i < lasers.size(); ++i) {
+    const auto& [frame_id, place] = lasers[i];
+    if (!place.is_finite())
+      return Error{"lasers", "the place of \"" + frame_id + "\" is not finite", "tell metres and radians"};
+    for (std::size_t k = 0; k < i; ++k)
+      if (lasers[k].frame_id == frame_id)
+        return Error{"lasers", "two have the frame \"" + frame_id + "\", so their scans cannot be told apart",
+                     "give each driver a frame of its own"};
+  }
+  return Done{};
 }
 
 }  // namespace
+
+const Pose2& base_from_laser_of(const LocalizerConfig& config, std::string_view frame_id) {
+  const auto laser = std::find_if(config.lasers.begin(), config.lasers.end(),
+                                  [&](const LaserOnRobot& of) { return of.frame_id == frame_id; });
+  return laser == config.lasers.end() ? config.base_from_laser : laser->base_from_laser;
+}
 
 void describe(Fields& fields, LocalizerConfig& config) {
   Words names;
@@ -260,9 +308,12 @@ Result<std::unique_ptr<Localizer>> make_localizer(const LocalizerConfig& config,
   });
   if (named == recipes().end()) return unknown_method(config.method);
   if (auto checked = check_config(config); !checked) return checked.error();
-  const LocalizerConfig settled = for_map(config, map);
-  return named->recipe.fitting == Fitting::amcl ? make_amcl(named->recipe, settled, map)
-                                                : make_tracking(named->recipe, settled, map);
+  if (auto lasers = check_lasers(config.lasers); !lasers) return lasers.error();
+  LocalizerConfig settled = for_map(config, map);
+  const auto surfaces = make_surfaces(named->recipe, settled, map);
+  if (!surfaces) return surfaces.error();
+  return settled.lasers.empty() ? make_one(named->recipe, settled, map, *surfaces)
+                                : make_several(named->recipe, settled, map, *surfaces);
 }
 
 }  // namespace beaconless
