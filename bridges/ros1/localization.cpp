@@ -4,19 +4,21 @@
 namespace beaconless::ros1 {
 
 Result<Done> Localization::set_map(std::shared_ptr<const Map> map) {
-  if (has_laser_)
+  if (has_lasers_)
     if (auto built = build(config_, map); !built) return built.error();
   map_ = std::move(map);
   return Done{};
 }
 
-Result<Done> Localization::set_laser(const Pose2& base_from_laser) {
+Result<Done> Localization::set_lasers(const std::vector<LaserOnRobot>& lasers) {
   LocalizerConfig config = config_;
-  config.base_from_laser = base_from_laser;
+  config.base_from_laser = lasers.front().base_from_laser;
+  config.lasers.clear();
+  if (lasers.size() > 1) config.lasers = lasers;
   if (map_)
     if (auto built = build(config, map_); !built) return built.error();
   config_ = std::move(config);
-  has_laser_ = true;
+  has_lasers_ = true;
   return Done{};
 }
 

@@ -7,15 +7,16 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "beaconless/localize/make_localizer.hpp"
 
 namespace beaconless::ros1 {
 
-/// A localizer whose map, laser and start may come in any order, and change.
+/// A localizer whose map, lasers and start may come in any order, and change.
 ///
-/// It is built when the map and the laser are known. Another map, or a stamp that ran backwards, begins anew
-/// where the robot was last believed to be.
+/// It is built when the map and a laser are known. Another map, one more laser, or a stamp that ran
+/// backwards, begins anew where the robot was last believed to be.
 class Localization {
  public:
   using Maker = std::function<Result<std::unique_ptr<Localizer>>(const LocalizerConfig&, const Map&)>;
@@ -25,7 +26,7 @@ class Localization {
 
   /// Errors: those of make_localizer; the old map stays then.
   Result<Done> set_map(std::shared_ptr<const Map> map);
-  Result<Done> set_laser(const Pose2& base_from_laser);
+  Result<Done> set_lasers(const std::vector<LaserOnRobot>& lasers);  ///< all there are; at least one
 
   void start_at(const Pose2& map_from_base);
   void start_anywhere(const std::optional<SearchRegion>& within = std::nullopt);
@@ -37,13 +38,20 @@ class Localization {
   bool has_map() const { return map_ != nullptr; }
   const Map* map() const { return map_.get(); }
   bool is_ready() const { return localizer_ != nullptr; }
-  const Pose2& base_from_laser() const { return config_.base_from_laser; }
+  const Pose2& base_from_laser(const std::string& frame_id) const {
+    return base_from_laser_of(config_, frame_id);
+  }
   const std::string& method() const { return config_.method; }
 
   /// Takes in an event; one that is ready.
   PoseEstimate update(const Event& event);
 
   std::span<const PoseCandidate> candidates() const { return localizer_->candidates(); }
+
+  /// What each of several lasers tells.
+  std::span<const LaserSays> lasers() const {
+    return localizer_ ? localizer_->lasers() : std::span<const LaserSays>{};
+  }
   const std::optional<PoseEstimate>& last() const { return last_; }  ///< that a scan has brought
 
  private:
@@ -57,7 +65,7 @@ class Localization {
   LocalizerConfig config_;
   Maker maker_;
   std::shared_ptr<const Map> map_;
-  bool has_laser_ = false;
+  bool has_lasers_ = false;
   std::unique_ptr<Localizer> localizer_;
   std::variant<std::monostate, Pose2, Anywhere> start_;
   std::optional<PoseEstimate> last_;

@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
     if (auto set = node.set_map(*std::move(map), *identity); !set) return refuse(link, set.error());
   }
   // 3. Hear and tell.
-  link.run(node.handlers());
+  link.run(node.handlers(), ros1::scan_topics_of(settings->node));
   return 0;
 }
 

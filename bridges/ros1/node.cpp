@@ -156,6 +156,11 @@ void Node::tick() {
                          now_s - last_heard_s_));
   DiagnosticMessage diagnostic = diagnostic_message(localization_.last(), complaints_.at(now_s));
   diagnostic.values.emplace_back("method", localization_.method());
+  for (const LaserSays& laser : localization_.lasers())
+    diagnostic.values.emplace_back("laser " + std::string(laser.frame_id),
+                                   std::string(to_string(laser.estimate.status)) +
+                                       (laser.estimate.reason.empty() ? "" : ": ") +
+                                       std::string(laser.estimate.reason));
   diagnostic.values.emplace_back("scans_heard", std::to_string(scans_heard_));
   diagnostic.values.emplace_back("scans_dropped", std::to_string(scans_dropped_));
   diagnostic.values.emplace_back("longest_ms", fmt::format("{:.2f}", longest_ms_));

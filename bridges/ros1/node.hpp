@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,11 @@ class Node {
     std::optional<Scan> scan;  // as soon as the laser is known
   };
   enum class Step { done, wait };
+  /// A laser, as soon as it is heard; it sits somewhere, as soon as that is known.
+  struct Laser {
+    std::optional<MountedLaser> mounted;
+    bool was_waited_for = false;  // for tf to tell where it sits
+  };
   /// Where the base is in the frame of the wheels, as far as that is known.
   struct Wheels {
     Step step = Step::done;
@@ -60,6 +66,8 @@ class Node {
   void drain();
   Step take(Waiting& waiting);
   Step find_laser(const Waiting& waiting);
+  Step use_lasers();
+  Result<Done> mount(const std::string& frame, const Transform& base_from_laser);
   bool make_scan(Waiting& waiting);
   Wheels find_wheels(const Waiting& waiting);
   void localize(const Scan& scan, const std::optional<Pose2>& odom_from_base);
@@ -79,11 +87,13 @@ class Node {
   Localization localization_;
   PoseMemory memory_;
   Complaints complaints_;
-  StampWatch stamps_;
+  std::map<std::string, StampWatch> stamps_;  // by the frames of the scans
   std::deque<Waiting> waiting_;
-  std::string laser_frame_;
-  std::optional<MountedLaser> laser_;
-  std::optional<Stamp> first_scan_;  // by its own clock
+  std::map<std::string, Laser> lasers_;  // by the frames of their scans
+  bool are_lasers_new_ = false;          // and the localizer does not know of them
+  std::optional<double> first_heard_s_;  // a scan
+  std::optional<Stamp> first_scan_;      // by its own clock
+  std::optional<Stamp> last_wheels_;     // that were told on
   bool has_seen_wheels_ = false;
   double last_heard_s_;
   double last_told_s_ = 0.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bridges/ros1/node_config.hpp"
 
+#include "beaconless/core/parse.hpp"
+
 namespace beaconless::ros1 {
 namespace {
 
@@ -32,6 +34,8 @@ void describe(Fields& fields, NodeConfig& config) {
   fields("first_map_only", config.first_map_only, "later maps of the topic are passed over");
   fields("start", config.start, Words{"auto", "wait"},
          "without an initial pose: look on the whole map, or wait for /initialpose");
+  fields("scan_topics", config.scan_topics, Words{},
+         "the topics of several lasers, with blanks between; empty: the topic scan");
   fields("map_file", config.map_file, Words{}, "YAML of map_server, or a floor plan; empty: the topic map");
   fields("pose_file", config.pose_file, Words{}, "keeps the last good pose, and is started from");
   fields("transform_wait", config.transform_wait, kSeconds, "how long a scan waits for its transform (s)");
@@ -39,6 +43,12 @@ void describe(Fields& fields, NodeConfig& config) {
   fields("stamp_is", config.stamp_is, {"first", "middle", "last"}, "the beam that the scans' stamps mean");
   fields("sweep_time", config.sweep_time, {0.0, 59.0},
          "from a sweep's first beam to its last (s), where the driver does not tell; 0: believe it");
+}
+
+std::vector<std::string> scan_topics_of(const NodeConfig& config) {
+  std::vector<std::string> topics;
+  for (const std::string_view topic : split_words(config.scan_topics, ", ")) topics.emplace_back(topic);
+  return topics.empty() ? std::vector<std::string>{"scan"} : topics;
 }
 
 ScanGate gate_of(const NodeConfig& config) {

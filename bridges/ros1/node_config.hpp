@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "beaconless/core/describe.hpp"
 #include "beaconless/scan/scan.hpp"
@@ -28,6 +29,7 @@ struct NodeConfig {
 
   // Not in ROS's amcl.
   std::string start = "auto";
+  std::string scan_topics;  ///< "": the topic scan; else several, with blanks or commas between
   std::string map_file;
   std::string pose_file;
   double transform_wait = 0.2;
@@ -37,6 +39,9 @@ struct NodeConfig {
 };
 
 void describe(Fields& fields, NodeConfig& config);
+
+/// The topics of the scans, one a laser.
+std::vector<std::string> scan_topics_of(const NodeConfig& config);
 
 /// What Scan::make may assume.
 ScanGate gate_of(const NodeConfig& config);

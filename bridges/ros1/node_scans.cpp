@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMostWaiting = 200;
 constexpr double kWheelsMayCome_s = 1.0;  // until then nobody says that there are none
 constexpr double kLaserWait_s = 2.0;      // at the beginning tf may still be silent
+constexpr double kAllLasersWait_s = 1.0;  // for the first scans of all, where there are several
 constexpr double kTilted_rad = radians(3.0);
 constexpr double kPathStep_m = 0.05;
 constexpr std::size_t kLongestPath = 5000;
@@ -26,7 +27,9 @@ void Node::hear_scan(const ScanMessage& scan) {
     ++scans_dropped_;
     return;
   }
+  if (!first_heard_s_) first_heard_s_ = last_heard_s_;
   waiting_.push_back({scan, last_heard_s_, std::nullopt});
+  find_laser(waiting_.back());  // however many scans of others wait before it
   if (waiting_.size() > kMostWaiting) {
     waiting_.pop_front();
     ++scans_dropped_;
@@ -38,7 +41,7 @@ void Node::hear_scan(const ScanMessage& scan) {
 
 bool Node::check_stamp(const ScanMessage& scan) {
   const Stamp stamp{scan.stamp_ns};
-  switch (stamps_.see(stamp)) {
+  switch (stamps_[scan.frame_id].see(stamp)) {
     case StampOrder::follows:
       break;
     case StampOrder::repeated:
@@ -57,6 +60,7 @@ bool Node::check_stamp(const ScanMessage& scan) {
                kRemember_s);
       waiting_.clear();
       first_scan_.reset();
+      last_wheels_.reset();
       localization_.begin_anew();
       break;
   }
@@ -82,8 +86,10 @@ Node::Step Node::take(Waiting& waiting) {
     ++scans_dropped_;
     return Step::done;
   }
-  if (find_laser(waiting) == Step::wait) return Step::wait;
-  if (!localization_.is_ready() || waiting.message.frame_id != laser_frame_ || !make_scan(waiting)) {
+  if (find_laser(waiting) == Step::wait || use_lasers() == Step::wait) return Step::wait;
+  const auto laser = lasers_.find(waiting.message.frame_id);
+  const bool is_known = laser != lasers_.end() && laser->second.mounted;
+  if (!localization_.is_ready() || !is_known || !make_scan(waiting)) {
     ++scans_dropped_;
     return Step::done;
   }
@@ -96,7 +102,8 @@ Node::Step Node::take(Waiting& waiting) {
 
 bool Node::make_scan(Waiting& waiting) {
   if (waiting.scan) return true;
-  auto scan = Scan::make(upright(waiting.message, *laser_), gate_of(config_));
+  auto scan =
+      Scan::make(upright(waiting.message, *lasers_[waiting.message.frame_id].mounted), gate_of(config_));
   if (!scan) {
     complain("sweep", Level::warn, "a scan is passed over: " + to_string(scan.error()), kRemember_s);
     return false;
@@ -107,44 +114,57 @@ bool Node::make_scan(Waiting& waiting) {
 
 Node::Step Node::find_laser(const Waiting& waiting) {
   const std::string& frame = waiting.message.frame_id;
-  if (laser_ && frame == laser_frame_) return Step::done;
-  if (laser_) {
-    complain("tf", Level::warn,
-             "scans of \"" + frame + "\" are passed over: the laser is \"" + laser_frame_ + "\"",
+  if (!lasers_.contains(frame) && lasers_.size() == scan_topics_of(config_).size()) {
+    std::string known;
+    for (const auto& [name, laser] : lasers_) known += (known.empty() ? "\"" : ", \"") + name + "\"";
+    complain("tf", Level::warn, "scans of \"" + frame + "\" are passed over: the laser is " + known,
              kRemember_s);
     return Step::done;
   }
-  const bool is_told = has_base_from_laser_;
-  const TransformAnswer answer = is_told ? TransformAnswer{TransformAnswer::Kind::known,
-                                                           transform_of(localization_.base_from_laser()), ""}
-                                         : link_.transform(config_.base_frame_id, frame, 0);
+  Laser& laser = lasers_[frame];
+  if (laser.mounted) return Step::done;
+  const TransformAnswer answer = has_base_from_laser_
+                                     ? TransformAnswer{TransformAnswer::Kind::known,
+                                                       transform_of(localization_.base_from_laser(frame)), ""}
+                                     : link_.transform(config_.base_frame_id, frame, 0);
   if (answer.kind != TransformAnswer::Kind::known) {
-    if (link_.steady_s() - waiting.since_s < kLaserWait_s) return Step::wait;
+    // Once: the scans of other lasers wait behind.
+    if (!laser.was_waited_for && link_.steady_s() - waiting.since_s < kLaserWait_s) return Step::wait;
+    laser.was_waited_for = true;
     complain(
-        "tf", Level::error,
+        "tf " + frame, Level::error,
         "where the laser \"" + frame + "\" sits on \"" + config_.base_frame_id +
             "\" is not known, so its scans cannot be used: " + answer.why +
             " (publish it, as by static_transform_publisher, or set base_frame_id or ~base_from_laser/x_m)");
     return Step::done;
   }
-  const auto mounted = mounted_laser(answer.transform);
-  if (!mounted) {
-    complain("tf", Level::error, to_string(mounted.error()));
-    return Step::done;
-  }
-  const auto set =
-      localization_.set_laser(is_told ? localization_.base_from_laser() : mounted->base_from_laser);
-  if (!set) {
-    complain("map", Level::error, to_string(set.error()));
-    return Step::done;
-  }
-  laser_ = *mounted;
-  laser_frame_ = frame;
-  complaints_.clear("tf");
+  const auto mounted = mount(frame, answer.transform);
+  if (!mounted) complain("tf " + frame, Level::error, to_string(mounted.error()));
+  return Step::done;
+}
+
+Result<Done> Node::mount(const std::string& frame, const Transform& base_from_laser) {
+  const auto mounted = mounted_laser(base_from_laser);
+  if (!mounted) return mounted.error();
+  lasers_[frame].mounted = *mounted;
+  are_lasers_new_ = true;
+  complaints_.clear("tf " + frame);
   if (mounted->tilt_rad > kTilted_rad)
-    complain("laser", Level::warn,
+    complain("laser " + frame, Level::warn,
              fmt::format("the laser is tilted by {:.1f} degrees; its scans are taken as level",
                          degrees(mounted->tilt_rad)));
+  return Done{};
+}
+
+Node::Step Node::use_lasers() {
+  if (!are_lasers_new_) return Step::done;
+  std::vector<LaserOnRobot> all;
+  for (const auto& [name, laser] : lasers_)
+    if (laser.mounted) all.push_back({name, laser.mounted->base_from_laser});
+  if (all.size() < scan_topics_of(config_).size() && link_.steady_s() - *first_heard_s_ < kAllLasersWait_s)
+    return Step::wait;
+  are_lasers_new_ = false;
+  if (auto set = localization_.set_lasers(all); !set) complain("map", Level::error, to_string(set.error()));
   return Step::done;
 }
 
@@ -176,8 +196,11 @@ Node::Wheels Node::find_wheels(const Waiting& waiting) {
 
 void Node::localize(const Scan& scan, const std::optional<Pose2>& odom_from_base) {
   if (!first_scan_) first_scan_ = scan.stamp();
-  if (odom_from_base)
+  // Scans of several lasers may overtake each other a little; wheels that ran backwards would begin anew.
+  if (odom_from_base && (!last_wheels_ || *last_wheels_ < scan.stamp())) {
     localization_.update(Odometry{scan.stamp(), *odom_from_base, std::nullopt, config_.odom_frame_id});
+    last_wheels_ = scan.stamp();
+  }
   const auto before = localization_.last();
   const PoseEstimate estimate = localization_.update(scan);
   tell(before, estimate, scan, odom_from_base);
@@ -188,7 +211,8 @@ void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& e
   const std::string& frame = config_.global_frame_id;
   link_.send_places(places_message(estimate, localization_.candidates(), frame));
   if (link_.wants_beams())
-    link_.send_beams(beams_message(before, estimate, scan, localization_.base_from_laser(), frame));
+    link_.send_beams(
+        beams_message(before, estimate, scan, localization_.base_from_laser(scan.frame_id()), frame));
   if (auto saved = memory_.update(estimate); !saved)
     complain("pose_file", Level::warn, to_string(saved.error()), kRemember_s);
   // A pose that is not known is not told: whoever drives by it stops.

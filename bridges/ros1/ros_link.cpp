@@ -7,6 +7,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/SetMap.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -43,6 +44,16 @@ void flatten(const std::string& name, XmlRpc::XmlRpcValue value, Parameters& int
       into[name] = text;
       break;
     }
+    case XmlRpc::XmlRpcValue::TypeArray: {
+      std::string words;
+      for (int i = 0; i < value.size(); ++i) {
+        Parameters one;
+        flatten("", value[i], one);
+        words += (words.empty() ? "" : " ") + one[""];
+      }
+      into[name] = words;
+      break;
+    }
     case XmlRpc::XmlRpcValue::TypeString:
       into[name] = static_cast<std::string>(value);
       break;
@@ -61,7 +72,8 @@ bool told(const Answer& answer) {
 
 /// All that hangs on one master.
 struct RosLink::Wires {
-  Wires(const Handlers& on, const GridMessage& sent_map) : listener(buffer) {
+  Wires(const Handlers& on, const std::vector<std::string>& scan_topics, const GridMessage& sent_map)
+      : listener(buffer) {
     ros::NodeHandle node;
     ros::NodeHandle own("~");
     pose = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("amcl_pose", 20, true);
@@ -70,10 +82,6 @@ struct RosLink::Wires {
     path = own.advertise<nav_msgs::Path>("path", 1, true);
     beams = own.advertise<visualization_msgs::Marker>("beams", 2);
     subscribers = {
-        node.subscribe<sensor_msgs::LaserScan>(
-            "scan", kScansWaiting,
-            [&on](const sensor_msgs::LaserScan::ConstPtr& m) { on.on_scan(plain(*m)); }, {},
-            ros::TransportHints().tcpNoDelay()),
         node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
             "initialpose", 2,
             [&on](const geometry_msgs::PoseWithCovarianceStamped::ConstPtr& m) {
@@ -81,6 +89,15 @@ struct RosLink::Wires {
             }),
         node.subscribe<nav_msgs::OccupancyGrid>(
             "map", 1, [&on](const nav_msgs::OccupancyGrid::ConstPtr& m) { on.on_map(plain(*m)); })};
+    for (const std::string& topic : scan_topics)
+      subscribers.push_back(node.subscribe<sensor_msgs::LaserScan>(
+          topic, kScansWaiting, [&on](const sensor_msgs::LaserScan::ConstPtr& m) { on.on_scan(plain(*m)); },
+          {}, ros::TransportHints().tcpNoDelay()));
+    // roscpp subscribes to the clock with its first master only.
+    if (ros::param::param("/use_sim_time", false))
+      subscribers.push_back(node.subscribe<rosgraph_msgs::Clock>(
+          "/clock", 1, [](const rosgraph_msgs::Clock::ConstPtr& m) { ros::Time::setNow(m->clock); }, {},
+          ros::TransportHints().tcpNoDelay()));
     send_map(sent_map);
     using Empty = std_srvs::Empty;
     using Trigger = std_srvs::Trigger;
@@ -134,9 +151,10 @@ std::map<std::string, std::string> RosLink::parameters() const {
   return parameters;
 }
 
-void RosLink::run(const Handlers& handlers) {
+void RosLink::run(const Handlers& handlers, const std::vector<std::string>& scan_topics) {
   handlers_ = handlers;
-  wires_ = std::make_unique<Wires>(handlers_, map_);
+  scan_topics_ = scan_topics;
+  wires_ = std::make_unique<Wires>(handlers_, scan_topics_, map_);
   ros::NodeHandle node;
   const auto tick =
       node.createWallTimer(ros::WallDuration(kTick_s), [this](const auto&) { handlers_.on_tick(); });
@@ -162,7 +180,7 @@ void RosLink::look_after_master() {
     return;
   ROS_WARN("the ROS master does not know this node, as after a restart: subscribing and advertising again");
   wires_.reset();
-  wires_ = std::make_unique<Wires>(handlers_, map_);
+  wires_ = std::make_unique<Wires>(handlers_, scan_topics_, map_);
 }
 
 std::int64_t RosLink::now_ns() { return static_cast<std::int64_t>(ros::Time::now().toNSec()); }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bridges/ros1/link.hpp"
 
@@ -24,7 +25,7 @@ class RosLink final : public Link {
   std::map<std::string, std::string> parameters() const;
 
   /// Subscribes, advertises, and hears until the node is shut down. Only inside it can be sent and asked.
-  void run(const Handlers& handlers);
+  void run(const Handlers& handlers, const std::vector<std::string>& scan_topics);
 
   std::int64_t now_ns() override;
   double steady_s() override;
@@ -47,6 +48,7 @@ class RosLink final : public Link {
   void look_after_master();
 
   Handlers handlers_;
+  std::vector<std::string> scan_topics_;
   std::unique_ptr<Wires> wires_;
   bool is_master_away_ = false;
   GridMessage map_;  ///< sent; without cells: none was

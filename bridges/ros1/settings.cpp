@@ -56,6 +56,9 @@ Result<Settings> settings_of(const std::map<std::string, std::string>& parameter
     settings.remarks.push_back("parameters of particles are given, and the method is '" +
                                settings.localizer.method +
                                "', which has none: ~method:=amcl or amcl+walls would hear of them");
+  if (settings.has_base_from_laser && scan_topics_of(settings.node).size() > 1)
+    return Error{"~base_from_laser", "there are several lasers in ~scan_topics",
+                 "let tf tell where each sits"};
   for (std::string* frame :
        {&settings.node.global_frame_id, &settings.node.odom_frame_id, &settings.node.base_frame_id})
     strip_slash(*frame);

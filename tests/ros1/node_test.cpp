@@ -111,6 +111,46 @@ TEST_F(NodeTest, NeverTakesAMissingLaserForAnIdentity) {
   EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("sits on")));
 }
 
+TEST_F(NodeTest, WaitsForAllItsLasersAndTellsThemApartByTheirFrames) {
+  settings.node.scan_topics = "/front, /rear";
+  give_map(), give_wheels();
+  link.transforms[{"base_link", "front"}] = FakeLink::known(0.3, 0.0);
+  link.transforms[{"base_link", "rear"}] = FakeLink::known(-0.3, 0.0, 1.0, 0.0);
+  scan(10, "front");
+  EXPECT_THAT(link.poses, IsEmpty());
+  scan(10, "rear");  // of the same moment, which is no repetition
+  EXPECT_THAT(link.poses, SizeIs(2));
+  ASSERT_THAT(config_seen.lasers, SizeIs(2));
+  EXPECT_EQ(config_seen.lasers[0].frame_id, "front");
+  EXPECT_EQ(config_seen.lasers[1].base_from_laser.x_m, -0.3);
+  EXPECT_EQ(localizer->odometry_count, 1U);  // that moment's wheels are told on once
+  scan(11, "top");
+  EXPECT_THAT(link.poses, SizeIs(2));
+  EXPECT_THAT(diagnosed(), HasSubstr("scans of \"top\" are passed over: the laser is \"front\", \"rear\""));
+}
+
+TEST_F(NodeTest, DoesNotWaitForeverForALaserThatNobodyPlaces) {
+  settings.node.scan_topics = "/front /rear";
+  give_map();
+  link.transforms[{"base_link", "front"}] = FakeLink::known(0.3, 0.0);
+  scan(10, "front");
+  scan(11, "rear");
+  EXPECT_THAT(link.poses, IsEmpty());
+  link.steady += 5.0;
+  node().tick();
+  EXPECT_THAT(link.poses, SizeIs(1));
+  EXPECT_THAT(config_seen.lasers, IsEmpty());
+  EXPECT_THAT(diagnosed(), HasSubstr("where the laser \"rear\" sits"));
+  // Nothing waits for it again.
+  scan(12, "rear"), scan(13, "front");
+  EXPECT_THAT(link.poses, SizeIs(2));
+  // It comes later.
+  link.transforms[{"base_link", "rear"}] = FakeLink::known(-0.3, 0.0);
+  scan(14, "rear"), scan(15, "front");
+  EXPECT_THAT(link.poses, SizeIs(4));
+  EXPECT_THAT(config_seen.lasers, SizeIs(2));
+}
+
 TEST_F(NodeTest, KeepsTheOrderWhileAScanWaitsForItsWheels) {
   give_map(), give_laser();
   link.transforms[{"odom", "base_link"}] = {TransformAnswer::Kind::not_yet, {}, "it would lie in the future"};
