@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plays a recording to the ROS 1 node through a roscore of its own, and checks what the node tells.
 
-usage: node_on_a_bag.py NODE PROGRAM; skipped (exit code 77) where ROS or the recording is absent.
+usage: node_on_a_bag.py NODE PROGRAM agv|room; skipped (exit code 77) where ROS or the recording is absent.
+
+`agv` is a real drive with one laser, `room` a made-up one with two.
 """
 
 import csv
@@ -16,9 +18,9 @@ import tempfile
 import time
 from pathlib import Path
 
+import room_drive
+
 SKIPPED = 77
-SCAN = "/driver_laser_navigation/laser_scan"
-START = (14.9, 6.1, 178.5)  # metres and degrees, near the first pose by the reflectors
 SETTINGS = {"odometry.use": "false", "deskew": "true"}
 
 
@@ -27,11 +29,8 @@ def skip(why):
     sys.exit(SKIPPED)
 
 
-DATA = Path(os.environ.get("BEACONLESS_DATA", "/nowhere"))
-BAG, MAP = DATA / "jarvis/jarvis_circular_path_fast.bag", DATA / "jarvis/maps/i-108_10mm.yaml"
-if not BAG.exists() or not MAP.exists():
-    skip(f"there is no {BAG}; BEACONLESS_DATA names the folder of recordings")
 try:
+    import rosbag  # noqa: F401, which room_drive writes with
     import rosgraph
     import rospy
     import rosservice
@@ -43,6 +42,30 @@ try:
     from tf2_msgs.msg import TFMessage
 except ImportError as missing:
     skip(f"ROS is not installed: {missing}")
+
+
+class Drive:
+    """What is played, and how both programs are told of it."""
+
+    def __init__(self, bag, map_file, map_frame, base_frame, start, lasers, stamp_is):
+        self.bag, self.map_file, self.map_frame, self.base_frame = bag, map_file, map_frame, base_frame
+        self.start = start  # metres and degrees, near the first pose
+        self.lasers = lasers  # {topic: x,y,deg on the base}
+        self.stamp_is = stamp_is
+
+
+def drive_of(name, folder):
+    if name == "room":
+        lasers = {"/front": ("front", (0.3, 0.1, 0.0)), "/rear": ("rear", (-0.3, -0.1, math.pi))}
+        room_drive.write_bag(folder / "room.bag", lasers)
+        (folder / "room.yaml").write_text(room_drive.WALLS, encoding="utf-8")
+        return Drive(folder / "room.bag", folder / "room.yaml", "map", "base_link", (5.5, 4.0, 90.0),
+                     {"/front": "0.3,0.1,0", "/rear": "-0.3,-0.1,180"}, "first")
+    data = Path(os.environ.get("BEACONLESS_DATA", "/nowhere")) / "jarvis"
+    if not data.exists():
+        skip(f"there is no {data}; BEACONLESS_DATA names the folder of recordings")
+    return Drive(data / "jarvis_circular_path_fast.bag", data / "maps/i-108_10mm.yaml", "plan", "base_footprint",
+                 (14.9, 6.1, 178.5), {"/driver_laser_navigation/laser_scan": "0.194,0,0"}, "last")
 
 
 def free_port():
@@ -87,7 +110,8 @@ class Processes:
 class Heard:
     """Everything that the node tells, as it comes."""
 
-    def __init__(self):
+    def __init__(self, drive):
+        self.drive = drive
         self.poses, self.transforms, self.odometry, self.diagnostics = {}, {}, {}, []
         rospy.Subscriber("amcl_pose", PoseWithCovarianceStamped, self.hear_pose, queue_size=1000)
         rospy.Subscriber("/tf", TFMessage, self.hear_tf, queue_size=1000)
@@ -99,9 +123,9 @@ class Heard:
     def hear_tf(self, message):
         for t in message.transforms:
             ns = t.header.stamp.to_nsec()
-            if (t.header.frame_id, t.child_frame_id) == ("plan", "odom"):
+            if (t.header.frame_id, t.child_frame_id) == (self.drive.map_frame, "odom"):
                 self.transforms[ns] = flat(t.transform.translation, t.transform.rotation)
-            if (t.header.frame_id, t.child_frame_id) == ("odom", "base_footprint"):
+            if (t.header.frame_id, t.child_frame_id) == ("odom", self.drive.base_frame):
                 self.odometry[ns] = flat(t.transform.translation, t.transform.rotation)
 
     def hear_diagnostics(self, message):
@@ -113,11 +137,6 @@ class Heard:
 
 def flat(place, turn):
     return place.x, place.y, 2.0 * math.atan2(turn.z, turn.w)
-
-
-def times(a, b):
-    return (a[0] + math.cos(a[2]) * b[0] - math.sin(a[2]) * b[1],
-            a[1] + math.sin(a[2]) * b[0] + math.cos(a[2]) * b[1], a[2] + b[2])
 
 
 def apart(a, b):
@@ -134,10 +153,12 @@ def wait_for(what, is_there, seconds=30.0):
         time.sleep(0.05)
 
 
-def by_command_line(program, folder):
+def by_command_line(program, drive, folder):
     """The poses of `beaconless localize`: {stamp in ns: (x, y, theta)} of those that are told."""
-    words = [program, "localize", BAG, "--topic", SCAN, "--map", MAP, "--base-from-laser", "0.194,0,0",
-             "--stamp-is", "last", "--start", ",".join(map(repr, START)), "--out", folder]
+    words = [program, "localize", drive.bag, "--map", drive.map_file, "--stamp-is", drive.stamp_is,
+             "--start", ",".join(map(repr, drive.start)), "--out", folder]
+    for topic, place in drive.lasers.items():
+        words += ["--topic", topic, f"--base-from-laser={place}"]
     for name, value in SETTINGS.items():
         words += ["--set", f"{name}={value}"]
     subprocess.run([str(word) for word in words], check=True, stdout=subprocess.DEVNULL)
@@ -160,7 +181,7 @@ def check_poses(heard, expected):
 
 
 def check_tf(heard, expected, tolerance_ns):
-    """plan_from_odom times odom_from_base is the pose, where odometry is told to the same moment."""
+    """map_from_odom times odom_from_base is the pose, where odometry is told to the same moment."""
     assert len(heard.transforms) > 0.9 * len(expected), f"{len(heard.transforms)} transforms"
     stamps = sorted(heard.odometry)
     most_m, compared = 0.0, 0
@@ -174,18 +195,18 @@ def check_tf(heard, expected, tolerance_ns):
         a, b = heard.odometry[before], heard.odometry[after]
         turn = math.atan2(math.sin(b[2] - a[2]), math.cos(b[2] - a[2]))
         odom = (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * turn)
-        most_m = max(most_m, apart(times(sent, odom), pose)[0])
+        most_m = max(most_m, apart(room_drive.times(sent, odom), pose)[0])
         compared += 1
     print(f"tf: {compared} of {len(expected)} transforms give the pose to {most_m:.1e} m")
     # Between two messages tf interpolates as above; stamps of transforms are whole nanoseconds.
     assert compared > 0.9 * len(expected) and most_m < 1e-6
 
 
-def check_refusal(heard):
+def check_refusal(heard, frame):
     publisher = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
     wait_for("the node to listen to initialpose", lambda: publisher.get_num_connections() > 0)
     bad = PoseWithCovarianceStamped()
-    bad.header.frame_id, bad.pose.pose.orientation.w = "plan", 1.0
+    bad.header.frame_id, bad.pose.pose.orientation.w = frame, 1.0
     bad.pose.covariance[0] = 1e12
     publisher.publish(bad)
     wait_for("the refusal of a huge covariance", lambda: heard.diagnosed("says nothing"))
@@ -207,7 +228,8 @@ def check_services():
     print("services: save_pose, request_nomotion_update, global_localization, set_map answer")
 
 
-def check_new_master(processes, core, process, port):
+def check_new_master(processes, core, process, port, drive):
+    """Nothing of the old master is left: the node is heard by others when the recording is played again."""
     processes.end(core)
     processes.start("roscore", "-p", port)
 
@@ -217,16 +239,22 @@ def check_new_master(processes, core, process, port):
         except (OSError, rosgraph.MasterException):
             return False
         return all("/beaconless" in dict(names).get(name, [])
-                   for names, name in ((published, "/amcl_pose"), (published, "/tf"), (subscribed, SCAN),
-                                       (served, "/global_localization")))
+                   for names, name in ((published, "/amcl_pose"), (published, "/tf"), (served, "/global_localization"),
+                                       *((subscribed, topic) for topic in drive.lasers)))
 
+    wait_for("a new roscore", lambda: rosgraph.is_master_online(f"http://127.0.0.1:{port}"))
+    rosgraph.Master("/driver").setParam("/use_sim_time", True)
     wait_for("the node to make itself known to a new roscore", is_known)
+    echo = processes.start("rostopic", "echo", "-n", "3", "--filter", "m.header.stamp.secs > 0", "/amcl_pose")
+    again = processes.start("rosbag", "play", "--clock", "--delay", "3", "--quiet", drive.bag)
+    wait_for("poses under the new roscore", lambda: echo.poll() == 0, 30.0)
+    processes.end(again)
     assert process.poll() is None
-    print("master: the node is known to a new one")
+    print("master: the node is known to a new one, hears its clock, and tells poses")
 
 
-def run(node, program, folder, processes):
-    expected = by_command_line(program, folder / "cli")
+def run(node, program, drive, folder, processes):
+    expected = by_command_line(program, drive, folder / "cli")
     port = free_port()
     os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1", ROS_HOSTNAME="127.0.0.1",
                       ROS_LOG_DIR=str(folder / "ros"), ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
@@ -234,34 +262,36 @@ def run(node, program, folder, processes):
     wait_for("roscore", lambda: rosgraph.is_master_online(f"http://127.0.0.1:{port}"))
     rosgraph.Master("/driver").setParam("/use_sim_time", True)
     rospy.init_node("driver", disable_signals=True)
-    heard = Heard()
-    parameters = {"map_file": MAP, "global_frame_id": "plan", "base_frame_id": "base_footprint", "stamp_is": "last",
-                  "transform_tolerance": 0.1, "transform_wait": 2.0, "initial_pose_x": START[0],
-                  "initial_pose_y": START[1], "initial_pose_a": repr(math.radians(START[2])), **SETTINGS}
+    heard = Heard(drive)
+    x, y, heading_deg = drive.start
+    parameters = {"map_file": drive.map_file, "global_frame_id": drive.map_frame, "base_frame_id": drive.base_frame,
+                  "stamp_is": drive.stamp_is, "transform_tolerance": 0.1, "transform_wait": 2.0, "initial_pose_x": x,
+                  "initial_pose_y": y, "initial_pose_a": repr(math.radians(heading_deg)),
+                  "scan_topics": " ".join(drive.lasers), **SETTINGS}
     for name, value in parameters.items():
         rosgraph.Master("/driver").setParam("/beaconless/" + name.replace(".", "/"), str(value))
     rosgraph.Master("/driver").setParam("/beaconless/base_frame", "base")
-    process = processes.start(node, f"scan:={SCAN}")
+    process = processes.start(node)
     wait_for("the node", lambda: "/global_localization" in rosservice.get_service_list())
-    player = processes.start("rosbag", "play", "--clock", "--delay", "2", "--quiet", BAG)
+    player = processes.start("rosbag", "play", "--clock", "--delay", "2", "--quiet", drive.bag)
     wait_for("the end of the recording", lambda: player.poll() is not None, 120.0)
     time.sleep(2.5)  # the last diagnostic comes within a second
     check_poses(heard, expected)
     check_tf(heard, expected, 100_000_000)
     assert heard.diagnostics, "no diagnostics"
     print(f"diagnostics: {len(heard.diagnostics)}, the last: {heard.diagnostics[-1].message}")
-    check_refusal(heard)
+    check_refusal(heard, drive.map_frame)
     check_services()
     assert "did you mean ~base_frame_id?" in processes.logs(), "an unknown parameter is passed over in silence"
-    check_new_master(processes, core, process, port)
+    check_new_master(processes, core, process, port, drive)
 
 
 def main():
-    node, program = sys.argv[1:]
+    node, program, name_of_drive = sys.argv[1:]
     with tempfile.TemporaryDirectory(prefix="beaconless_ros1_") as name:
         processes = Processes(Path(name))
         try:
-            run(node, program, Path(name), processes)
+            run(node, program, drive_of(name_of_drive, Path(name)), Path(name), processes)
         except BaseException:
             print(processes.logs())
             raise
