@@ -106,8 +106,9 @@ void read_recording(const OpenRecording& open, Bytes bytes) {
   auto recording = open(path, options);
   if (recording && recording->scan_topic().empty()) {  // several: take the first one
     const auto& topics = recording->topics();
-    const auto scans = std::find_if(topics.begin(), topics.end(),
-                                    [](const io::Topic& topic) { return io::is_laser_scan_type(topic.type); });
+    const auto scans = std::find_if(topics.begin(), topics.end(), [](const io::Topic& topic) {
+      return io::is_laser_scan_type(topic.type);
+    });
     if (scans != topics.end()) {
       options.topic = scans->name;
       recording = open(path, options);

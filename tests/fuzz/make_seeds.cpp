@@ -16,6 +16,7 @@
 #include "beaconless/io/rostopic_echo.hpp"
 #include "beaconless/io/tum.hpp"
 #include "beaconless/io/whole_file.hpp"
+
 #include "tests/io/cdr_writer.hpp"
 #include "tests/io/mcap_samples.hpp"
 #include "tests/io/picture_bytes.hpp"
@@ -74,17 +75,21 @@ void text_logs(const Seeds& seeds, const std::vector<RawScan>& scans) {
   }
   seeds.add("carmen", "old.log",
             "# old\nPARAM robot_frontlaser_offset 0.25\nFLASER 4 1 2 3 81.9 0 0 0 1 2 3 1.5 host 1.5\n"
-            "ODOM 1 2 0.5 0 0 0 1.6 host 1.6\nRLASER 2 1 2 0 0 0 1 2 3 1.7 host 1.7\nTRUEPOS 1 2 3 1 2 3 1.8 h 1.8\n"
+            "ODOM 1 2 0.5 0 0 0 1.6 host 1.6\nRLASER 2 1 2 0 0 0 1 2 3 1.7 host 1.7\nTRUEPOS 1 2 3 1 2 3 1.8 "
+            "h 1.8\n"
             "ROBOTLASER1 0 -1.57 3.14 0.0174 80 0.01 0 3 1 2 3 1 0.5 1 2 0 1 2 0 0 0 0 0 0 1.9 host 1.9\n"
             "RAWLASER1 0 -1.57 3.14 0.0174 80 0.01 0 3 1 2 3 0 1.95 host 1.95\nSYNC x\n");
   if (!io::write_rostopic_echo(seeds.path("echo", "scans"), scans)) std::exit(1);
-  seeds.add("echo", "odometry",
-            "header:\n  seq: 1\n  stamp:\n    secs: 15\n    nsecs: 3\n  frame_id: \"odom\"\nchild_frame_id: base\n"
-            "pose:\n  pose:\n    position:\n      x: 1.0\n      y: 2.0\n      z: 0.0\n    orientation:\n      x: 0.0\n"
-            "      y: 0.0\n      z: 0.0\n      w: 1.0\n  covariance: [0.0, 1.0]\ntwist:\n  twist:\n    linear:\n"
-            "      x: 0.5\n      y: 0.0\n      z: 0.0\n    angular:\n      x: 0.0\n      y: 0.0\n      z: 0.1\n---\n"
-            "header:\n  stamp:\n    sec: 15\n    nanosec: 3\n  frame_id: map\npose:\n  position:\n    x: .nan\n"
-            "    y: 2.0\n    z: 0.0\n  orientation:\n    x: 0.0\n    y: 0.0\n    z: 0.0\n    w: 1.0\n---\n");
+  seeds.add(
+      "echo", "odometry",
+      "header:\n  seq: 1\n  stamp:\n    secs: 15\n    nsecs: 3\n  frame_id: \"odom\"\nchild_frame_id: base\n"
+      "pose:\n  pose:\n    position:\n      x: 1.0\n      y: 2.0\n      z: 0.0\n    orientation:\n      x: "
+      "0.0\n"
+      "      y: 0.0\n      z: 0.0\n      w: 1.0\n  covariance: [0.0, 1.0]\ntwist:\n  twist:\n    linear:\n"
+      "      x: 0.5\n      y: 0.0\n      z: 0.0\n    angular:\n      x: 0.0\n      y: 0.0\n      z: "
+      "0.1\n---\n"
+      "header:\n  stamp:\n    sec: 15\n    nanosec: 3\n  frame_id: map\npose:\n  position:\n    x: .nan\n"
+      "    y: 2.0\n    z: 0.0\n  orientation:\n    x: 0.0\n    y: 0.0\n    z: 0.0\n    w: 1.0\n---\n");
   seeds.add("echo", "ros2",
             "header:\n  stamp:\n    sec: 1500000000\n    nanosec: 5\n  frame_id: laser\nangle_min: -1.5\n"
             "angle_max: 1.5\nangle_increment: 0.5\ntime_increment: 0.0\nscan_time: 0.1\nrange_min: 0.1\n"
@@ -181,7 +186,8 @@ void pictures(const Seeds& seeds) {
     add("wide", p5(2, 1, "\x01\x02\x03\x04", 1000));
     add("gray", png({4, 2, 8, 0, 0}, std::string("\0abcd\0efgh", 10)));
     add("bits", png({4, 2, 2, 0, 0}, std::string("\0a\0e", 4)));
-    add("palette", png({2, 1, 8, 3, 0}, std::string("\0\0\1", 3), png_chunk("PLTE", "abcdef") + png_chunk("tRNS", "a")));
+    add("palette",
+        png({2, 1, 8, 3, 0}, std::string("\0\0\1", 3), png_chunk("PLTE", "abcdef") + png_chunk("tRNS", "a")));
     add("rgba", png({1, 1, 8, 6, 0}, std::string("\0abcd", 5)));
     add("interlaced", png({1, 1, 16, 4, 1}, std::string("\0abcd", 5)));
   }
@@ -191,8 +197,9 @@ void small_files(const Seeds& seeds, const fs::path& data) {
   const auto add = [&](char kind, const std::string& name, const std::string& bytes) {
     seeds.add("small_files", name, kind + bytes);
   };
-  add(0, "grid", "image: none.pgm\nresolution: 0.05\norigin: [1.0, 2.0, 0.1]\nnegate: 0\noccupied_thresh: 0.65\n"
-                 "free_thresh: 0.196\nmode: trinary\n");
+  add(0, "grid",
+      "image: none.pgm\nresolution: 0.05\norigin: [1.0, 2.0, 0.1]\nnegate: 0\noccupied_thresh: 0.65\n"
+      "free_thresh: 0.196\nmode: trinary\n");
   for (const auto& entry : fs::directory_iterator(data / "plans"))
     if (fs::file_size(entry) < 8000) add(0, entry.path().filename(), bytes_of(entry.path()));
   for (const auto& entry : fs::directory_iterator(data / "scenarios"))
@@ -217,8 +224,9 @@ void small_files(const Seeds& seeds, const fs::path& data) {
   if (!io::write_last_pose(scratch, io::last_pose_of(estimate, {}))) std::exit(1);
   add(6, "last_pose_ok", bytes_of(scratch));
   fs::remove(scratch);
-  add(7, "metadata", "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
-                     "  relative_file_paths:\n    - bag_0.db3\n");
+  add(7, "metadata",
+      "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
+      "  relative_file_paths:\n    - bag_0.db3\n");
 }
 
 }  // namespace

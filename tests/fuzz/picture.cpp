@@ -39,15 +39,16 @@ void read_picture(Bytes bytes) {
   folder.write("map.picture", picture);
   constexpr std::array kModes{"trinary", "scale", "raw", "trinary"};
   const std::string yaml =
-      std::string("image: map.picture\nresolution: 0.05\norigin: [1, 2, 0.3]\noccupied_thresh: 0.65\n"
-                  "free_thresh: 0.196\nnegate: ") +
+      std::string(
+          "image: map.picture\nresolution: 0.05\norigin: [1, 2, 0.3]\noccupied_thresh: 0.65\n"
+          "free_thresh: 0.196\nnegate: ") +
       (how / 8 % 2 == 1 ? "1" : "0") + "\nmode: " + kModes[how / 2 % 4] + "\n";
   const auto grid = io::read_grid(
       folder.write("map.yaml", {reinterpret_cast<const unsigned char*>(yaml.data()), yaml.size()}));
   if (!grid) return check(grid.error());
   require(grid->width_cells > 0 && grid->height_cells > 0 &&
-              grid->occupancy_percent.size() == static_cast<std::size_t>(grid->width_cells) *
-                                                    static_cast<std::size_t>(grid->height_cells),
+              grid->occupancy_percent.size() ==
+                  static_cast<std::size_t>(grid->width_cells) * static_cast<std::size_t>(grid->height_cells),
           "a grid has a value a cell");
   for (const std::int8_t value : grid->occupancy_percent)
     require(value >= OccupancyGrid::kUnknown && value <= OccupancyGrid::kOccupied,

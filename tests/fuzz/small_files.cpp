@@ -7,6 +7,7 @@
 #include "beaconless/io/config_yaml.hpp"
 #include "beaconless/io/estimates_csv.hpp"
 #include "beaconless/io/last_pose.hpp"
+#include "beaconless/io/map_identity.hpp"
 #include "beaconless/io/map_io.hpp"
 #include "beaconless/io/relations.hpp"
 #include "beaconless/io/rosbag2_recording.hpp"
@@ -30,6 +31,7 @@ void check(const FloorPlan& plan) {
 }
 
 void read_map_yaml(const std::string& path) {
+  if (const auto identity = io::identify_map(path); !identity) fuzz::check(identity.error());
   const auto map = io::read_map(path);
   if (!map) return fuzz::check(map.error());
   std::visit([](const auto& m) { check(m); }, *map);
