@@ -35,16 +35,13 @@ std::uint64_t room_in(const std::filesystem::path& folder) {
 /// Says why a file may not unpack to so many bytes, if so.
 std::optional<Error> too_much(const std::string& path, std::uint64_t packed, std::uint64_t plain,
                               std::uint64_t room) {
-  constexpr std::uint64_t kMaxPacking = 1000;  // bags pack to a half or a tenth
-  constexpr std::uint64_t kAlwaysBytes = 16U << 20U;
   if (plain > room)
     return Error{path,
                  "cannot be unpacked: it has more than the " + std::to_string(room) +
                      " bytes that the temporary folder can spare",
                  "name a folder with more room in TMPDIR, or unpack it with `unzstd`"};
-  if (plain > kAlwaysBytes && plain / kMaxPacking > packed)
-    return Error{path,
-                 "unpacks to more than " + std::to_string(kMaxPacking) + " times its size, which no bag does",
+  if (is_absurd_packing(packed, plain))
+    return Error{path, "unpacks to more than 1000 times its size, which no bag does",
                  "is it damaged? If you trust it, unpack it with `unzstd`"};
   return std::nullopt;
 }

@@ -30,11 +30,17 @@ class TemporaryFile {
 
 inline constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
+/// Whether so few bytes that unpack to so many hold anything but a wish to fill memory, a disk or an hour:
+/// over 16 MiB and a thousand times as much. Recordings pack to a half or a tenth.
+constexpr bool is_absurd_packing(std::uint64_t packed_bytes, std::uint64_t plain_bytes) {
+  return plain_bytes > 16U << 20U && plain_bytes / 1000 > packed_bytes;
+}
+
 /// Unpacks a file that was compressed with zstd into a temporary one, a block at a time.
 ///
 /// `room_bytes` is what the unpacked file may take, by default nine tenths of what is free in the temporary
 /// folder. Errors: damaged or cut data, a window of more than 128 MB, more than the room (TMPDIR names
-/// another folder), more than 16 MiB and a thousand times the file's own size. Cost: the disk space of the
+/// another folder), an absurd packing. Cost: the disk space of the
 /// unpacked file, memory of the window only.
 Result<std::shared_ptr<const TemporaryFile>> unpack_zstd_file(
     const std::string& path, std::optional<std::uint64_t> room_bytes = std::nullopt);

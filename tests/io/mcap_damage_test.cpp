@@ -155,6 +155,9 @@ TEST(McapDamage, AChunkThatPromisesTooMuchIsNotUnpacked) {
   };
   const std::string packed = io::pack_mcap_chunk(io::McapCompression::zstd, std::string(1000, '\0'));
   EXPECT_THAT(said({.unpacked_size = 1ULL << 60U, .compression = "zstd"}, packed), HasSubstr("promises"));
+  constexpr std::size_t kMuch = 64U << 20U;
+  const std::string bomb = io::pack_mcap_chunk(io::McapCompression::zstd, std::string(kMuch, '\0'));
+  EXPECT_THAT(said({.unpacked_size = kMuch, .compression = "zstd"}, bomb), HasSubstr("1000 times its size"));
   EXPECT_THAT(said({.unpacked_size = 999, .compression = "zstd"}, packed), HasSubstr("does not unpack"));
   EXPECT_THAT(said({.unpacked_size = 1001, .compression = "zstd"}, packed), HasSubstr("does not unpack"));
   EXPECT_THAT(said({.unpacked_size = 1000, .compression = "lz4"}, packed), HasSubstr("does not unpack"));
