@@ -8,7 +8,7 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
-#include "beaconless/io/zstd_file.hpp"
+#include "beaconless/io/packing.hpp"
 
 namespace beaconless::io {
 namespace {

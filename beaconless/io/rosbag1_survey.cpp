@@ -8,6 +8,8 @@
 #include <bzlib.h>
 #include <roslz4/lz4s.h>
 
+#include "beaconless/io/packing.hpp"
+
 namespace beaconless::io {
 namespace {
 
@@ -159,6 +161,8 @@ class Surveyor {
       return fail(at, "a chunk is damaged or missing", kReindex), false;
     if (unpacked > kMaxChunkBytes)
       return fail(at, "a chunk promises " + std::to_string(unpacked) + " bytes", kReindex), false;
+    if (is_absurd_packing(record.data_size, unpacked))
+      return fail(at, "a chunk promises more than 1000 times its size", kReindex), false;
     Chunk chunk;
     chunk.data_at = record.data_at;
     chunk.size = unpacked;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 #include <zstd.h>
 
+#include "beaconless/io/packing.hpp"
 #include "beaconless/io/whole_file.hpp"
 
 namespace beaconless::io {

@@ -30,12 +30,6 @@ class TemporaryFile {
 
 inline constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
-/// Whether so few bytes that unpack to so many hold anything but a wish to fill memory, a disk or an hour:
-/// over 16 MiB and a thousand times as much. Recordings pack to a half or a tenth.
-constexpr bool is_absurd_packing(std::uint64_t packed_bytes, std::uint64_t plain_bytes) {
-  return plain_bytes > 16U << 20U && plain_bytes / 1000 > packed_bytes;
-}
-
 /// Unpacks a file that was compressed with zstd into a temporary one, a block at a time.
 ///
 /// `room_bytes` is what the unpacked file may take, by default nine tenths of what is free in the temporary
