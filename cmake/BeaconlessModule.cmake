@@ -15,6 +15,14 @@ if(BEACONLESS_SANITIZE)
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(beaconless_build_flags INTERFACE -fsanitize=${BEACONLESS_SANITIZE})
 endif()
+if(BEACONLESS_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "BEACONLESS_FUZZ needs clang, not ${CMAKE_CXX_COMPILER_ID}: its libFuzzer drives the fuzz targets. "
+                        "Configure a fresh folder by `cmake --preset fuzz`, or with -DCMAKE_CXX_COMPILER=clang++-14")
+  endif()
+  target_compile_options(beaconless_build_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+endif()
 
 # beaconless_precompile(target headers…): what every source of the target would parse again is parsed once. The first
 # target of a kind names the headers; those that are compiled alike reuse them: beaconless_precompile(target FROM first).

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "beaconless/core/parse.hpp"
 #include "beaconless/io/carmen_line.hpp"
 #include "beaconless/io/failed_pass.hpp"
 #include "beaconless/io/float_text.hpp"
@@ -16,6 +17,20 @@
 namespace beaconless::io {
 namespace {
 
+/// Whether a line that the end of the file ended is whole: its last words are a host and the logger's stamp.
+/// Else a log that was cut could end with a pose, or a stamp, that lost its last digits.
+bool ends_as_logged(std::string_view line) {
+  static constexpr std::string_view kBlank = " \t";
+  const auto last_word = [&line] {
+    line = line.substr(0, line.find_last_not_of(kBlank) + 1);
+    const std::size_t before = line.find_last_of(kBlank) + 1;
+    const std::string_view word = line.substr(before);
+    line = line.substr(0, before);
+    return word;
+  };
+  return parse_double(last_word()).has_value() && !parse_double(last_word()).has_value();
+}
+
 class CarmenStream : public EventStream {
  public:
   CarmenStream(LineReader lines, RecordingOptions options)
@@ -23,8 +38,13 @@ class CarmenStream : public EventStream {
 
   std::optional<Event> next() override {
     if (scan_after_pose_) return Event(*std::exchange(scan_after_pose_, std::nullopt));
-    while (const auto line = lines_.next())
-      if (auto event = read(*line)) return event;
+    while (const auto line = lines_.next()) {
+      if (lines_.is_cut() && !ends_as_logged(*line)) {
+        skip(Error{"", "the text ends within the line", ""});
+      } else if (auto event = read(*line)) {
+        return event;
+      }
+    }
     order_.report_once(options_.on_problem);
     return std::nullopt;
   }

@@ -52,6 +52,7 @@ std::optional<std::string_view> LineReader::next() {
     line_.clear();
     bool too_long = false;
     bool any = false;
+    is_cut_ = true;
     for (;;) {
       if (unread_.empty() && !fill()) break;
       any = true;
@@ -60,7 +61,8 @@ std::optional<std::string_view> LineReader::next() {
       too_long = too_long || line_.size() + piece.size() > kMaxLineBytes;
       if (!too_long) line_ += piece;
       unread_.remove_prefix(end == std::string_view::npos ? unread_.size() : end + 1);
-      if (end != std::string_view::npos) break;
+      is_cut_ = end == std::string_view::npos;
+      if (!is_cut_) break;
     }
     if (!any) return std::nullopt;
     ++line_number_;

@@ -27,6 +27,7 @@ class LineReader {
   /// too long and compressed data that end early or are damaged go to `on_problem`.
   std::optional<std::string_view> next();
 
+  bool is_cut() const { return is_cut_; }  ///< the text ended before the line that next() gave last did
   std::uint64_t line_number() const { return line_number_; }  ///< of the line that next() gave last; from 1
   std::string where() const { return path_ + ":" + std::to_string(line_number_); }
 
@@ -46,6 +47,7 @@ class LineReader {
   std::string_view unread_;
   std::string line_;
   std::uint64_t line_number_ = 0;
+  bool is_cut_ = false;
 };
 
 }  // namespace beaconless::io

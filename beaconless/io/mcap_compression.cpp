@@ -8,6 +8,8 @@
 #include <lz4frame.h>
 #include <zstd.h>
 
+#include "beaconless/io/packing.hpp"
+
 namespace beaconless::io {
 namespace {
 
@@ -35,7 +37,7 @@ bool unpack_in_steps(std::uint64_t size, std::vector<unsigned char>& out, Step s
   return out.size() == size;
 }
 
-bool unpack_lz4(Bytes packed, std::uint64_t size, std::vector<unsigned char>& out) {
+bool unpack_lz4_chunk(Bytes packed, std::uint64_t size, std::vector<unsigned char>& out) {
   LZ4F_dctx* made = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) throw std::bad_alloc();
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(
@@ -50,7 +52,7 @@ bool unpack_lz4(Bytes packed, std::uint64_t size, std::vector<unsigned char>& ou
   });
 }
 
-bool unpack_zstd(Bytes packed, std::uint64_t size, std::vector<unsigned char>& out) {
+bool unpack_zstd_chunk(Bytes packed, std::uint64_t size, std::vector<unsigned char>& out) {
   const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> context(ZSTD_createDStream(),
                                                                            ZSTD_freeDStream);
   if (!context) throw std::bad_alloc();
@@ -94,9 +96,11 @@ Result<Done> unpack_mcap_chunk(std::string_view compression, Bytes packed, std::
     return Error{
         "", "the chunk is packed as '" + std::string(compression.substr(0, 20)) + "', known are lz4 and zstd",
         ""};
+  if (is_absurd_packing(packed.size(), unpacked_size))
+    return Error{"", "the chunk promises more than 1000 times its size", ""};
   if (packed.empty() && unpacked_size == 0) return out.clear(), Done{};
-  const bool good =
-      compression == "lz4" ? unpack_lz4(packed, unpacked_size, out) : unpack_zstd(packed, unpacked_size, out);
+  const bool good = compression == "lz4" ? unpack_lz4_chunk(packed, unpacked_size, out)
+                                         : unpack_zstd_chunk(packed, unpacked_size, out);
   if (!good) return damaged(compression);
   return Done{};
 }

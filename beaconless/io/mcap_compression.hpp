@@ -23,8 +23,8 @@ inline constexpr std::uint64_t kMaxMcapChunkBytes = std::uint64_t{256} << 20U;
 /// Unpacks a chunk into `out`, replacing what was there.
 ///
 /// `out` grows as bytes come out, never by what `unpacked_size` claims. Errors (without a place): a
-/// compression that is not known, a claim above kMaxMcapChunkBytes, bytes that do not unpack, or to another
-/// size.
+/// compression that is not known, a claim above kMaxMcapChunkBytes or of an absurd packing, bytes that do not
+/// unpack, or to another size.
 Result<Done> unpack_mcap_chunk(std::string_view compression, std::span<const unsigned char> packed,
                                std::uint64_t unpacked_size, std::vector<unsigned char>& out);
 

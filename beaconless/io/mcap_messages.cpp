@@ -35,7 +35,7 @@ void McapMessages::skip(std::uint64_t byte, const std::string& what) {
 bool McapMessages::next(McapMessage& message) {
   for (;;) {
     if (next_of_stretch(message) || next_of_chunks(message)) return true;
-    if (opened_ == parts_.size()) return false;
+    if (opened_ == parts_.size()) return check_data(), false;
     at_ = parts_[opened_].from;  // all chunks before this stretch are through
     ++opened_;
   }
@@ -77,6 +77,27 @@ bool McapMessages::next_of_chunks(McapMessage& message) {
     const auto size = in.take<std::uint64_t>();
     if (parse(in.bytes(size), message)) return true;
   }
+}
+
+/// Writers begin to count at the first byte, behind the magic or behind the header: the format leaves it
+/// open.
+void McapMessages::check_data() {
+  constexpr std::uint64_t kBlock = 1U << 20U;
+  if (std::exchange(is_data_checked_, true) || skipped_ > 0 || survey_->data_crc == 0 || !on_problem_) return;
+  const auto header = file_.record_at(kMcapMagic.size());
+  const std::uint64_t rest_at = std::min(header ? header->end() : 0, survey_->data_end_at);
+  const std::uint64_t rest_size = survey_->data_end_at - rest_at;
+  std::uint32_t rest = 0;
+  for (std::uint64_t at = rest_at; at < survey_->data_end_at; at += bytes_.size()) {
+    if (!file_.read(at, std::min(kBlock, survey_->data_end_at - at), bytes_)) return;
+    rest = mcap_crc(bytes_, rest);
+  }
+  for (const std::uint64_t from : {std::uint64_t{0}, std::uint64_t{kMcapMagic.size()}, rest_at}) {
+    if (!file_.read(from, rest_at - from, bytes_)) return;
+    if (joined_mcap_crc(mcap_crc(bytes_), rest, rest_size) == survey_->data_crc) return;
+  }
+  on_problem_({path_ + "@" + std::to_string(survey_->data_end_at),
+               "the checksum of the file's data does not match: some of what was read may be damaged"});
 }
 
 McapMessages::Open McapMessages::unpacked(const McapPart& part) {

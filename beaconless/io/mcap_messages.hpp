@@ -22,7 +22,9 @@ class McapMessages {
  public:
   static constexpr std::size_t kMostOpen = 4;
 
-  /// `on_problem` is told of chunks and records that are damaged; they are passed over.
+  /// `on_problem` is told of chunks and records that are damaged; they are passed over. Where none is, the
+  /// end of a pass holds all bytes against the checksum of the data section and tells when that does not
+  /// match.
   McapMessages(const std::string& path, std::shared_ptr<const McapSurvey> survey,
                std::set<std::uint16_t> channels, std::function<void(const Problem&)> on_problem);
 
@@ -45,6 +47,7 @@ class McapMessages {
   bool next_of_stretch(McapMessage& message);
   Open unpacked(const McapPart& part);
   void skip(std::uint64_t byte, const std::string& what);
+  void check_data();
 
   std::string path_;
   McapFile file_;
@@ -57,6 +60,7 @@ class McapMessages {
   std::uint64_t at_ = 0;  ///< in the stretch outside of chunks that is being read
   McapFile::Bytes bytes_;
   std::uint64_t skipped_ = 0;
+  bool is_data_checked_ = false;
 };
 
 }  // namespace beaconless::io

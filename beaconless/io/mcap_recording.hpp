@@ -12,8 +12,8 @@ namespace beaconless::io {
 ///
 /// The events are those of open_rosbag1, in the order of their log times where the file has chunks (see
 /// McapMessages); stamps are those of the messages' headers. A file that was cut, or has no summary, is read
-/// as far as it goes and told as a Problem. Errors: not an MCAP file; scans in an encoding that is not read
-/// (json, protobuf). Cost: see survey_mcap.
+/// as far as it goes and told as a Problem, as is one whose data do not match their checksum. Errors: not an
+/// MCAP file; scans in an encoding that is not read (json, protobuf). Cost: see survey_mcap.
 Result<Recording> open_mcap(const std::string& path, const RecordingOptions& options = {});
 
 }  // namespace beaconless::io

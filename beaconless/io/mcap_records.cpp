@@ -233,4 +233,8 @@ std::uint32_t mcap_crc(std::string_view bytes, std::uint32_t before) {
   return mcap_crc({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()}, before);
 }
 
+std::uint32_t joined_mcap_crc(std::uint32_t first, std::uint32_t second, std::uint64_t size) {
+  return static_cast<std::uint32_t>(crc32_combine(first, second, static_cast<z_off_t>(size)));
+}
+
 }  // namespace beaconless::io

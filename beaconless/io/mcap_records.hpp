@@ -129,5 +129,7 @@ void append_summary_offset(std::string& out, McapOp group, std::uint64_t at, std
 /// The checksum of the format, CRC-32; goes on from `before`.
 std::uint32_t mcap_crc(std::span<const unsigned char> bytes, std::uint32_t before = 0);
 std::uint32_t mcap_crc(std::string_view bytes, std::uint32_t before = 0);
+/// The checksum of bytes that are followed by others, `size` of them, from those of either.
+std::uint32_t joined_mcap_crc(std::uint32_t first, std::uint32_t second, std::uint64_t size);
 
 }  // namespace beaconless::io

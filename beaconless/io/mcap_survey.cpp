@@ -105,6 +105,10 @@ class Surveyor {
       if (record->op == McapOp::data_end || record->op == McapOp::footer) {
         if (!survey_.has_summary)
           problem(at, "the file has no summary that tells all: it is unpacked to see what it holds");
+        if (record->op == McapOp::data_end && file_.read_content(*record, sizeof(std::uint32_t), bytes)) {
+          survey_.data_end_at = at;
+          survey_.data_crc = McapReader(bytes).take<std::uint32_t>();
+        }
         return;
       }
       at = record->end();

@@ -27,6 +27,8 @@ struct McapSurvey {
   std::map<std::uint16_t, McapChannel> channels;
   std::map<std::uint16_t, std::uint64_t> messages;  ///< how many, by channel
   std::vector<McapPart> parts;                      ///< in the order of the file
+  std::uint64_t data_end_at = 0;                    ///< 0: the file has no end of its data
+  std::uint32_t data_crc = 0;                       ///< of all bytes before that; 0: not told
   bool has_summary = false;                         ///< one that is whole and tells all of this
   std::vector<Problem> problems;  ///< of the file as a whole: that it was cut, or not closed
 };

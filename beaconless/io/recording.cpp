@@ -45,8 +45,9 @@ const std::vector<Magic>& not_read() {
   return kList;
 }
 
+/// Enough for a whole block of zstd, of which nothing can be unpacked before its end.
 std::string raw_head(const std::string& path) {
-  std::string head(4096, '\0');
+  std::string head((std::size_t{128} << 10U) + 64, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));

@@ -8,6 +8,8 @@
 #include <bzlib.h>
 #include <roslz4/lz4s.h>
 
+#include "beaconless/io/packing.hpp"
+
 namespace beaconless::io {
 namespace {
 
@@ -132,9 +134,11 @@ class Surveyor {
         record.data_size > kMaxDefinitionBytes || !read(record.data_at, record.data_size, definition) ||
         !parse_fields(definition.data(), definition.size(), about))
       return fail(at, "a connection of the index is damaged or missing", kReindex), false;
-    topics_[id] = {record.fields["topic"], about["type"], 0};
     at = record.end();
-    return true;
+    const BagTopic topic{record.fields["topic"], about["type"], 0};
+    const auto [known, is_new] = topics_.emplace(id, topic);
+    if (is_new || (known->second.name == topic.name && known->second.type == topic.type)) return true;
+    return fail(record.data_at, "two topics of the index have the same number", kReindex), false;
   }
 
   bool walk_chunk_info(std::uint64_t& at) {
@@ -142,7 +146,7 @@ class Surveyor {
     std::uint64_t chunk_at = 0;
     std::uint32_t indexes = 0;
     if (!read_record(at, Op::chunk_info, info) || !take_number(info.fields, "chunk_pos", chunk_at) ||
-        !take_number(info.fields, "count", indexes) || info.data_size < 8 * std::uint64_t{indexes})
+        !take_number(info.fields, "count", indexes) || info.data_size != 8 * std::uint64_t{indexes})
       return fail(at, "a chunk's entry in the index is damaged or missing", kReindex), false;
     if (chunk_at < chunks_end_)  // chunks lie one after the other: none is unpacked twice
       return fail(at, "two chunks of the index overlap", kReindex), false;
@@ -157,6 +161,8 @@ class Surveyor {
       return fail(at, "a chunk is damaged or missing", kReindex), false;
     if (unpacked > kMaxChunkBytes)
       return fail(at, "a chunk promises " + std::to_string(unpacked) + " bytes", kReindex), false;
+    if (is_absurd_packing(record.data_size, unpacked))
+      return fail(at, "a chunk promises more than 1000 times its size", kReindex), false;
     Chunk chunk;
     chunk.data_at = record.data_at;
     chunk.size = unpacked;

@@ -14,7 +14,7 @@
 namespace beaconless::io {
 namespace {
 
-constexpr int kMaxValueBytes = 256 << 20;  // a scan has some kilobytes, an image some megabytes
+constexpr int kMaxValueBytes = 64 << 20;  // a scan has some kilobytes; images are not read
 constexpr std::size_t kMaxTopics = 10'000;
 constexpr std::size_t kMaxTextBytes = 4096;
 
@@ -133,14 +133,16 @@ Result<Rosbag2Database> Rosbag2Database::open(const std::string& path) {
   sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0,
                     nullptr);  // NOLINT(cppcoreguidelines-pro-type-vararg)
   const auto tables = database.prepare(
-      "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages') AND sql "
-      "NOT "
-      "LIKE 'CREATE VIRTUAL%'");
+      "SELECT (SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages') "
+      "AND sql NOT LIKE 'CREATE VIRTUAL%'), (SELECT count(*) FROM pragma_table_xinfo('topics') WHERE hidden "
+      "> 1) + (SELECT count(*) FROM pragma_table_xinfo('messages') WHERE hidden > 1)");
   if (!tables) return tables.error();
   if (sqlite3_step(tables->get()) != SQLITE_ROW) return database.damaged();
   if (sqlite3_column_int(tables->get(), 0) != 2)
     return Error{path, "is an SQLite database, but not a ROS 2 bag: it has no tables topics and messages",
                  ""};
+  if (sqlite3_column_int(tables->get(), 1) != 0)  // a few bytes could then give any number of huge messages
+    return Error{path, "is not a ROS 2 bag: its tables hold columns that are computed, not recorded", ""};
   return database;
 }
 

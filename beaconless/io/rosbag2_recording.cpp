@@ -73,9 +73,10 @@ Result<std::vector<std::string>> files_found(const std::string& folder) {
 }
 
 Result<std::vector<std::string>> files_of(const std::string& path) {
-  if (!fs::is_directory(path)) return std::vector<std::string>{path};
+  std::error_code not_there;  // a name that is too long counts as one
+  if (!fs::is_directory(path, not_there)) return std::vector<std::string>{path};
   const fs::path metadata = fs::path(path) / "metadata.yaml";
-  if (!fs::exists(metadata)) return files_found(path);
+  if (!fs::exists(metadata, not_there)) return files_found(path);
   const auto yaml = read_yaml(metadata.string());
   if (!yaml) return yaml.error();
   const YamlNode* bag = yaml->find("rosbag2_bagfile_information");
@@ -91,8 +92,8 @@ Result<std::vector<std::string>> files_of(const std::string& path) {
   for (const YamlNode& item : listed->items) {
     const fs::path name = fs::path(item.text).filename();  // old recorders wrote the folder's name before it
     fs::path file = fs::path(path) / name;
-    if (!fs::exists(file) && fs::exists(file.string() + ".zstd")) file += ".zstd";
-    if (name.empty() || !fs::exists(file))
+    if (!fs::exists(file, not_there) && fs::exists(file.string() + ".zstd", not_there)) file += ".zstd";
+    if (name.empty() || !fs::exists(file, not_there))
       return Error{where_in(metadata.string(), item), "the file " + item.described() + " is not there",
                    "copy the whole folder, or name one of its files"};
     files.push_back(file.string());

@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kScan = "scan";
 constexpr const char* kOdometry = "odometry";
 constexpr const char* kPose = "pose";
+constexpr const char* kCut = "the text ends before the message does";
 
 /// Fills `document` with the next message of the text; false at the end.
 bool take_document(LineReader& lines, EchoDocument& document, bool& is_delimited) {
@@ -54,16 +55,16 @@ class EchoStream : public EventStream {
       case EchoKind::scan:
         return read_scan(is_delimited);
       case EchoKind::odometry:
-        return event_of(document_.odometry());
+        return is_delimited ? event_of(document_.odometry()) : skip(kCut);
       case EchoKind::pose:
-        return event_of(document_.pose());
+        return is_delimited ? event_of(document_.pose()) : skip(kCut);
       default:
         return std::nullopt;
     }
   }
 
   std::optional<Event> read_scan(bool is_delimited) {
-    if (!is_delimited && !document_.is_whole()) return skip("the text ends before the scan does");
+    if (!is_delimited && !document_.is_whole()) return skip(kCut);
     auto raw = document_.scan();
     if (!raw) return skip(raw.error().what);
     const Stamp stamp = raw->stamp;

@@ -14,9 +14,10 @@ namespace beaconless::io {
 /// gzip.
 ///
 /// Messages: LaserScan, Odometry, PoseStamped, PoseWithCovarianceStamped; others are passed over. The text
-/// does not name its topics, so they are called "scan", "odometry" and "pose" here. Errors: the arrays of the
-/// first scan were left out or cut short when it was echoed. Source: dissertation, Appendix A.2. Cost: one
-/// pass over the file here, to count the messages.
+/// does not name its topics, so they are called "scan", "odometry" and "pose" here. A last message
+/// without its `---` is read only if it is a scan with its intensities. Errors: the arrays of the first scan
+/// were left out or cut short when it was echoed. Source: dissertation, Appendix A.2. Cost: one pass over the
+/// file here, to count the messages.
 Result<Recording> open_rostopic_echo(const std::string& path, const RecordingOptions& options = {});
 
 /// The text that `rostopic echo` prints for a scan, the closing `---` included. Reads back as the very same

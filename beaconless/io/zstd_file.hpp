@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,9 +32,12 @@ inline constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 
 /// Unpacks a file that was compressed with zstd into a temporary one, a block at a time.
 ///
-/// Errors: damaged or cut data, a window of more than 128 MB, no room in the temporary folder (TMPDIR names
-/// another). Cost: the disk space of the unpacked file, memory of the window only.
-Result<std::shared_ptr<const TemporaryFile>> unpack_zstd_file(const std::string& path);
+/// `room_bytes` is what the unpacked file may take, by default nine tenths of what is free in the temporary
+/// folder. Errors: damaged or cut data, a window of more than 128 MB, more than the room (TMPDIR names
+/// another folder), an absurd packing. Cost: the disk space of the
+/// unpacked file, memory of the window only.
+Result<std::shared_ptr<const TemporaryFile>> unpack_zstd_file(
+    const std::string& path, std::optional<std::uint64_t> room_bytes = std::nullopt);
 
 /// What the first bytes of such a file unpack to, `size` at most; fewer where it is damaged.
 std::string unpacked_zstd_head(std::string_view packed, std::size_t size);

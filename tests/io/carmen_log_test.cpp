@@ -132,6 +132,17 @@ TEST(CarmenLog, DamagedLinesAreNamedAndPassedOver) {
   EXPECT_THAT(pass.problems[4].what, HasSubstr("nan"));
 }
 
+TEST(CarmenLog, ALastLineThatLostItsEndIsReadOnlyWhenItIsWhole) {
+  const TempFolder folder;
+  const std::string line = "ODOM 1.5 2.5 0.5 0 0 0 10.25 host 10.5";
+  for (std::size_t size = 5; size < line.size(); ++size) {
+    const Pass pass = pass_over(folder.write("log", line + "\n" + line.substr(0, size)));
+    for (const Odometry& odometry : pass.odometry) EXPECT_EQ(odometry, pass.odometry.front()) << size;
+    EXPECT_EQ(pass.odometry.size() + pass.problems.size(), 2U) << size;
+  }
+  EXPECT_THAT(pass_over(folder.write("log", line)).odometry, SizeIs(1));
+}
+
 TEST(CarmenLog, StampsOutOfOrderAreReportedOnce) {
   const TempFolder folder;
   const std::string path = folder.write(

@@ -36,7 +36,8 @@ TEST(McapDamage, AFileThatWasCutGivesItsBeginning) {
     write_ros1_mcap(folder.path("whole.mcap"), raw, layout);
     const std::string whole = folder.read("whole.mcap");
     std::size_t most = 0;
-    for (std::size_t size = 8; size < whole.size(); size += 17) {
+    for (const std::size_t size : cuts(whole.size())) {
+      if (size < io::kMcapMagic.size()) continue;  // not to be told from any other file
       const Pass pass = pass_over(folder.write("cut.mcap", whole.substr(0, size)));
       ASSERT_FALSE(pass.error) << *pass.error;
       expect_beginning(pass.scans, all);
@@ -87,6 +88,43 @@ TEST(McapDamage, AWrongChecksumLosesOneChunkAndSaysSo) {
   EXPECT_THAT(pass.problems[0].what, HasSubstr("checksum"));
 }
 
+TEST(McapDamage, DataThatDoNotMatchTheirChecksumAreTold) {
+  const TempFolder folder;
+  const auto raw = sample_scans(20, 50);
+  for (const bool has_summary : {true, false}) {
+    write_ros1_mcap(folder.path("a.mcap"), raw, {io::McapCompression::none, 0, has_summary});  // no chunks
+    std::string bytes = folder.read("a.mcap");
+    const std::size_t told = pass_over(folder.path("a.mcap")).problems.size();
+    const std::string range(reinterpret_cast<const char*>(&raw[0].ranges_m[10]), 4);
+    ++bytes[bytes.find(range)];
+    const Pass pass = pass_over(folder.write("b.mcap", bytes));
+    EXPECT_EQ(pass.scans.size(), raw.size());
+    ASSERT_EQ(pass.problems.size(), told + 1);
+    EXPECT_THAT(pass.problems.back().what, HasSubstr("checksum of the file's data"));
+  }
+}
+
+TEST(McapDamage, ADataChecksumMayBeginBehindTheMagicOrTheHeader) {
+  const TempFolder folder;
+  std::string header;
+  append(header, io::McapHeader{"ros1", "another"});
+  std::string message;
+  append(message, io::McapMessage{.channel_id = 1});
+  const auto problems = [&](std::uint32_t crc) {
+    std::string bytes = std::string(io::kMcapMagic) + header + message;
+    io::append_data_end(bytes, crc);
+    append(bytes, io::McapFooter{});
+    return pass_over(folder.write("a.mcap", bytes + std::string(io::kMcapMagic)), {.scans_optional = true})
+        .problems.size();
+  };
+  const std::size_t untold = problems(0);
+  const std::string magic(io::kMcapMagic);
+  for (const std::string& counted : {magic + header + message, header + message, message}) {
+    EXPECT_EQ(problems(io::mcap_crc(counted)), untold);
+    EXPECT_EQ(problems(io::mcap_crc(counted) + 1), untold + 1);
+  }
+}
+
 TEST(McapDamage, ADamagedSummaryIsDoneWithout) {
   const TempFolder folder;
   const auto raw = sample_scans(20, 50);
@@ -117,6 +155,9 @@ TEST(McapDamage, AChunkThatPromisesTooMuchIsNotUnpacked) {
   };
   const std::string packed = io::pack_mcap_chunk(io::McapCompression::zstd, std::string(1000, '\0'));
   EXPECT_THAT(said({.unpacked_size = 1ULL << 60U, .compression = "zstd"}, packed), HasSubstr("promises"));
+  constexpr std::size_t kMuch = 64U << 20U;
+  const std::string bomb = io::pack_mcap_chunk(io::McapCompression::zstd, std::string(kMuch, '\0'));
+  EXPECT_THAT(said({.unpacked_size = kMuch, .compression = "zstd"}, bomb), HasSubstr("1000 times its size"));
   EXPECT_THAT(said({.unpacked_size = 999, .compression = "zstd"}, packed), HasSubstr("does not unpack"));
   EXPECT_THAT(said({.unpacked_size = 1001, .compression = "zstd"}, packed), HasSubstr("does not unpack"));
   EXPECT_THAT(said({.unpacked_size = 1000, .compression = "lz4"}, packed), HasSubstr("does not unpack"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -38,6 +39,17 @@ inline std::vector<RawScan> sample_scans(std::size_t count, std::size_t beams, s
     scans.push_back(scan);
   }
   return scans;
+}
+
+/// Where to cut a file of so many bytes: at some 200 places all over it, and at each of its last bytes.
+inline std::vector<std::size_t> cuts(std::size_t size) {
+  constexpr std::size_t kSpread = 200;
+  constexpr std::size_t kLast = 70;
+  const std::size_t tail = size - std::min(size, kLast);
+  std::vector<std::size_t> places;
+  for (std::size_t at = 0; at < tail; at += std::max<std::size_t>(1, size / kSpread)) places.push_back(at);
+  for (std::size_t at = tail; at < size; ++at) places.push_back(at);
+  return places;
 }
 
 /// Everything a pass over a recording gives, or why it could not be opened.

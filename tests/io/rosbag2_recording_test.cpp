@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "beaconless/io/zstd_file.hpp"
+
 #include "recording_samples.hpp"
 #include "rosbag2_writer.hpp"
 #include "temp_folder.hpp"
@@ -227,6 +229,53 @@ TEST(Rosbag2, FilesThatAreNoWholeBagAreRefusedInWords) {
   run_sql(writer, "COMMIT");
   sqlite3_close(writer);
   EXPECT_EQ(refusal(folder.path("bag.db3")), "opened");
+}
+
+TEST(Rosbag2, AFileThatUnpacksToMoreThanThereIsRoomForIsRefused) {
+  const TempFolder folder;
+  write_bag2(folder.path("bag.db3"), a_drive());
+  const std::string bytes = folder.read("bag.db3");
+  const std::string path = folder.write("bag.db3.zstd", zstd_of(bytes));
+  EXPECT_TRUE(io::unpack_zstd_file(path, bytes.size()).ok());
+  const auto refused = io::unpack_zstd_file(path, bytes.size() - 1);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().what, HasSubstr("temporary folder can spare"));
+  EXPECT_THAT(refused.error().remedy, HasSubstr("TMPDIR"));
+}
+
+/// Zeros behind what a bag begins with, in frames of which only the first tells its size.
+std::string zstd_bomb(std::size_t bytes) {
+  constexpr std::size_t kFrame = std::size_t{8} << 20U;
+  std::string packed = zstd_of(std::string("SQLite format 3\0", 16));
+  const std::string zeros = zstd_of(std::string(kFrame, '\0'));
+  for (std::size_t i = 0; i < bytes / kFrame; ++i) packed += zeros;
+  return packed;
+}
+
+TEST(Rosbag2, AFileThatUnpacksToAbsurdlyMuchIsRefused) {
+  const TempFolder folder;
+  EXPECT_THAT(refusal(folder.write("small.db3.zstd", zstd_bomb(8U << 20U))), HasSubstr("not a database"));
+  EXPECT_THAT(refusal(folder.write("bomb.db3.zstd", zstd_bomb(1U << 30U))), HasSubstr("1000 times its size"));
+}
+
+TEST(Rosbag2, TablesThatComputeTheirMessagesAreRefused) {
+  const TempFolder folder;
+  sqlite3* database = nullptr;
+  sqlite3_open(folder.path("bag.db3").c_str(), &database);
+  run_sql(database,
+          "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT);"
+          "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data AS "
+          "(zeroblob(200000000)))");
+  sqlite3_close(database);
+  EXPECT_THAT(refusal(folder.path("bag.db3")), HasSubstr("computed, not recorded"));
+}
+
+TEST(Rosbag2, AFolderThatNamesAFileTooLongForTheSystemIsRefused) {
+  const TempFolder folder;
+  folder.write("metadata.yaml",
+               "rosbag2_bagfile_information:\n  relative_file_paths: [" + std::string(300, 'x') + "]\n");
+  const std::string metadata = folder.path("metadata.yaml");
+  EXPECT_THAT(refusal(metadata.substr(0, metadata.rfind('/'))), HasSubstr("is not there"));
 }
 
 TEST(Rosbag2, ABagThatWasClosedInWalModeIsReadWithoutMakingFiles) {

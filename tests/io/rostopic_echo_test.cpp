@@ -135,6 +135,16 @@ TEST(RostopicEcho, ATextThatEndsWithinAMessageLosesOnlyThat) {
   }
 }
 
+TEST(RostopicEcho, AListWithoutItsEndIsNotWhole) {
+  const TempFolder folder;
+  const std::string whole =
+      with(kRos2, "intensities: []", "intensities:\n- 10.5\n- 1.5\n- 1.5\n- 1.5\n- 47.5");
+  const Pass both = pass_over(folder.write("echo", whole + whole));
+  ASSERT_THAT(both.scans, SizeIs(2));
+  for (const char* cut : {"7.5\n---\n", "---\n"})
+    EXPECT_THAT(pass_over(folder.write("echo", whole + whole.substr(0, whole.rfind(cut)))).scans, SizeIs(1));
+}
+
 TEST(RostopicEcho, OdometryAndPoses) {
   const TempFolder folder;
   const std::string head = "header: \n  stamp: \n    secs: 5\n    nsecs: 7\n  frame_id: \"odom\"\n";
@@ -159,6 +169,12 @@ TEST(RostopicEcho, OdometryAndPoses) {
   EXPECT_EQ(pass.odometry.at(0).twist_per_s, (Twist2{0.5, 0.0, 0.25}));
   EXPECT_EQ(pass.references.at(0).map_from_base, pass.odometry.at(0).odom_from_base);
   EXPECT_EQ(pass.references.at(1).map_from_base, pass.odometry.at(0).odom_from_base);
+  const std::string whole = folder.read("echo");
+  for (const std::size_t cut : cuts(whole.size())) {
+    const Pass some = pass_over(folder.write("cut", whole.substr(0, cut)));
+    ASSERT_LE(some.events.size(), pass.events.size());
+    EXPECT_TRUE(std::equal(some.events.begin(), some.events.end(), pass.events.begin())) << cut;
+  }
 }
 
 }  // namespace
