@@ -52,6 +52,7 @@ export function readDatabase(path) {
   const topics = {};
   for (const { name, type, serialization_format, qos, timestamp, data } of rows) {
     if (serialization_format !== "cdr") throw new Error(`${name} is ${serialization_format}`);
+    if (!kSchemas[type]) continue;
     const reader = new cdr.MessageReader(rosmsg.parse(kSchemas[type], { ros2: true }));
     const found = (topics[name] ??= { type, qos, messages: [], log: [] });
     found.messages.push(reader.readMessage(Buffer.from(data, "hex")));
