@@ -58,6 +58,7 @@ struct Serializer<beaconless::io::Serialized> {
   static void write(Stream& stream, const beaconless::io::Serialized& m) {
     std::memcpy(stream.advance(serializedLength(m)), m.bytes.data(), m.bytes.size());
   }
+  // NOLINTNEXTLINE(readability-identifier-naming): librosbag asks for this name
   static std::uint32_t serializedLength(const beaconless::io::Serialized& m) {
     return static_cast<std::uint32_t>(m.bytes.size());
   }

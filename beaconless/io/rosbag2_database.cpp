@@ -208,8 +208,7 @@ Error Rosbag2Database::damaged() const {
   const std::string says = std::string("SQLite says: ") + sqlite3_errmsg(database_.get());
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED)
     return {path_, "is being written to by another program; " + says, "close it, or read a copy"};
-  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB)
-    return {path_, "is damaged; " + says, kSave};
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) return {path_, "is damaged; " + says, kSave};
   return {path_, "cannot be read as a ROS 2 bag; " + says, ""};
 }
 
