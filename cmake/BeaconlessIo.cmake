@@ -9,7 +9,7 @@ find_package(SQLite3 REQUIRED)
 find_package(LZ4 REQUIRED)
 find_package(Zstd REQUIRED)
 
-set(rosbag1_sources rosbag1_bag.cpp rosbag1_survey.cpp)
+set(rosbag1_sources rosbag1_bag.cpp rosbag1_survey.cpp rosbag1_writer.cpp)
 beaconless_module(io PUBLIC beaconless_map beaconless_sim PRIVATE yaml-cpp ZLIB::ZLIB PNG::PNG nlohmann_json::nlohmann_json
                   fmt::fmt SQLite::SQLite3 LZ4::LZ4 Zstd::Zstd EXCLUDE ${rosbag1_sources})
 
@@ -30,6 +30,6 @@ if(BEACONLESS_WITH_ROSBAG1)
     target_link_libraries(beaconless_io PRIVATE beaconless_rosbag1)
     target_compile_definitions(beaconless_io PRIVATE BEACONLESS_HAS_ROSBAG1)
   else()
-    message(STATUS "ROS 1 bags cannot be read by this build: install librosbag-storage-dev to change that")
+    message(STATUS "ROS 1 bags can be neither read nor written by this build: install librosbag-storage-dev to change that")
   endif()
 endif()

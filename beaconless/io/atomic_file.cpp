@@ -47,6 +47,18 @@ Error failed(const std::string& path) {
           "is there such a folder, and room in it?"};
 }
 
+bool is_synced(const std::string& path) {
+  const Descriptor file(path, O_RDONLY);
+  return file.is_open() && fsync(file.number()) == 0;
+}
+
+/// A new name is safe once its folder is on the disk too; where that cannot be asked for, it comes in time.
+void sync_names(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  if (const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY); names.is_open())
+    fsync(names.number());
+}
+
 }  // namespace
 
 Result<Done> write_file_atomically(const std::string& path, std::string_view bytes) {
@@ -59,11 +71,24 @@ Result<Done> write_file_atomically(const std::string& path, std::string_view byt
     unlink(part.c_str());
     return error;
   }
-  // The new name is safe once the folder is on the disk too; where that cannot be asked for, it comes in
-  // time.
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  if (const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY); names.is_open())
-    fsync(names.number());
+  sync_names(path);
+  return Done{};
+}
+
+PartFile::~PartFile() {
+  std::error_code ignored;
+  if (!is_kept_) std::filesystem::remove_all(part_, ignored);
+}
+
+Result<Done> PartFile::keep() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(part_, error))
+    for (const auto& entry : fs::directory_iterator(part_, error))
+      if (!is_synced(entry.path().string())) return failed(path_);
+  if (!is_synced(part_) || std::rename(part_.c_str(), path_.c_str()) != 0) return failed(path_);
+  is_kept_ = true;
+  sync_names(path_);
   return Done{};
 }
 

@@ -159,6 +159,12 @@ void CarmenParams::take(std::string_view line) {
     const auto value = name == wanted ? parse_float(word) : std::nullopt;
     if (value && std::isfinite(*value) && (!must_be_positive || *value > 0.0F)) into = *value;
   };
+  if (name == "beaconless_laser_base_from_laser") {
+    const std::array values{parse_double(word), parse_double(take_word(line)), parse_double(take_word(line))};
+    const bool is_pose = std::all_of(values.begin(), values.end(),
+                                     [](const auto& value) { return value && std::isfinite(*value); });
+    if (is_pose) base_from_laser = Pose2{*values[0], *values[1], *values[2]};
+  }
   take_if("robot_front_laser_max", front_max_m, true);
   take_if("robot_rear_laser_max", rear_max_m, true);
   take_if("beaconless_laser_range_min", range_min_m, false);

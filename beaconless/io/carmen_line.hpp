@@ -21,6 +21,7 @@ struct CarmenParams {
   float time_increment_s = 0.0F;
   float scan_time_s = 0.0F;
   std::string frame_id;
+  std::optional<Pose2> base_from_laser;  ///< in a log that was written from a recording that tells it
 
   /// Takes a line `PARAM name value …`; names that are not about lasers are none of ours.
   void take(std::string_view line);

@@ -114,8 +114,11 @@ Result<Recording> open_carmen_log(const std::string& path, const RecordingOption
   auto lines = LineReader::open(path);
   if (!lines) return lines.error();
   std::map<std::string, std::uint64_t, std::less<>> counts;
+  CarmenParams params;
   while (auto rest = lines.value().next()) {
+    const std::string_view line = *rest;
     const std::string_view keyword = take_word(*rest);
+    if (keyword == "PARAM") params.take(line);
     if (!is_carmen_scan(keyword) && keyword != "ODOM" && keyword != "TRUEPOS") continue;
     if (const auto known = counts.find(keyword); known != counts.end())
       ++known->second;
@@ -132,12 +135,15 @@ Result<Recording> open_carmen_log(const std::string& path, const RecordingOption
   if (!chosen) return chosen.error();
   RecordingOptions pass = options;
   pass.topic = *chosen;
-  return Recording(path, "CARMEN log", *chosen, std::move(topics),
-                   [path, pass]() -> std::unique_ptr<EventStream> {
-                     auto opened = LineReader::open(path, pass.on_problem);
-                     if (!opened) return failed_pass(opened.error(), pass.on_problem);
-                     return std::make_unique<CarmenStream>(std::move(opened).value(), pass);
-                   });
+  Recording recording(path, "CARMEN log", *chosen, std::move(topics),
+                      [path, pass]() -> std::unique_ptr<EventStream> {
+                        auto opened = LineReader::open(path, pass.on_problem);
+                        if (!opened) return failed_pass(opened.error(), pass.on_problem);
+                        return std::make_unique<CarmenStream>(std::move(opened).value(), pass);
+                      });
+  if (params.base_from_laser && !chosen->empty())
+    recording.set_laser_place({*params.base_from_laser, "PARAM beaconless_laser_base_from_laser", ""});
+  return recording;
 }
 
 }  // namespace beaconless::io

@@ -71,6 +71,15 @@ void CarmenWriter::put_params(const RawScan& scan) {
   number("scan_time", scan.scan_time_s, last_.scan_time_s);
   if (scan.frame_id != last_.frame_id) param("frame_id", to_carmen_word(scan.frame_id));
   last_.frame_id = scan.frame_id;
+  if (!base_from_laser_ || is_place_put_) return;
+  std::string place;
+  append(place, *base_from_laser_);
+  param("base_from_laser", place.substr(1));
+  is_place_put_ = true;
+}
+
+void CarmenWriter::place_laser(const Pose2& base_from_laser) {
+  if (!base_from_laser_) base_from_laser_ = base_from_laser;
 }
 
 void CarmenWriter::put_scan(const char* keyword, const RawScan& scan, const std::string& poses) {

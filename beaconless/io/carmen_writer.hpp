@@ -14,8 +14,8 @@ namespace beaconless::io {
 
 /// Writes a CARMEN log as events come; gzip when the path ends in ".gz".
 ///
-/// All numbers read back as the very same floats. What a laser line has no room for (range_min, times, frame)
-/// goes into PARAM lines `beaconless_laser_…` where it changes; other programs pass over them.
+/// All numbers read back as the very same floats. What a laser line has no room for (range_min, times, frame,
+/// place) goes into PARAM lines `beaconless_laser_…` where it changes; other programs pass over them.
 class CarmenWriter {
  public:
   /// Opens the file; a path that cannot be written shows in `good()`. Each line of `comment` becomes a
@@ -31,6 +31,10 @@ class CarmenWriter {
   void write(const Scan& scan, const Pose2& map_from_base, const Pose2& base_from_laser = {});
   void write(const Odometry& odometry);        ///< ODOM
   void write(const ReferencePose& reference);  ///< TRUEPOS, without base_from_laser
+
+  /// Where the laser sits, for sweeps without a pose: a PARAM line with the first of them. The first place
+  /// stays.
+  void place_laser(const Pose2& base_from_laser);
 
   /// Writes what is left and closes the file; false when anything could not be written. Called on destruction
   /// too.
@@ -48,6 +52,8 @@ class CarmenWriter {
 
   std::unique_ptr<void, Close> file_;
   bool good_ = false;
+  std::optional<Pose2> base_from_laser_;
+  bool is_place_put_ = false;
   RawScan last_;  ///< its ranges stay empty: what the PARAM lines have said so far
 };
 

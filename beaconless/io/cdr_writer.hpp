@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "beaconless/core/stamp.hpp"
 #include "beaconless/io/byte_writer.hpp"
+#include "beaconless/io/ros_layout_out.hpp"
 
 namespace beaconless::io {
 
@@ -24,6 +28,14 @@ class CdrWriter {
     const std::size_t past = (out_.size() - kHeaderBytes) % sizeof(T);
     if (past != 0) out_.append(sizeof(T) - past, '\0');
     ByteWriter(out_).put(value);
+  }
+
+  /// What a Header holds before its frame.
+  void header_stamp(Stamp stamp) {
+    using Seconds = std::numeric_limits<std::int32_t>;
+    const auto [seconds, nanos] = whole_seconds(stamp);
+    put(static_cast<std::int32_t>(std::clamp<std::int64_t>(seconds, Seconds::min(), Seconds::max())));
+    put(nanos);
   }
 
   /// Behind its length, which counts the zero at its end.

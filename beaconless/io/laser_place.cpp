@@ -52,8 +52,10 @@ Result<std::optional<LaserPlace>> laser_place(const std::vector<FrameTransform>&
     return Error{
         way, turn(2, 2) < 0.0 ? "the laser hangs upside down" : "the laser is tilted",
         "tell its place by --base-from-laser; for one that hangs upside down, turn its ranges round"};
-  return std::optional(LaserPlace{
-      {found->translation().x(), found->translation().y(), std::atan2(turn(1, 0), turn(0, 0))}, way});
+  return std::optional(
+      LaserPlace{{found->translation().x(), found->translation().y(), std::atan2(turn(1, 0), turn(0, 0))},
+                 way,
+                 bases[best]});
 }
 
 }  // namespace beaconless::io

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "beaconless/core/result.hpp"
 #include "beaconless/event.hpp"
-#include "beaconless/io/mcap_writer.hpp"
+#include "beaconless/io/mcap_sink.hpp"
+#include "beaconless/io/ros_event_writer.hpp"
 #include "beaconless/pose_estimate.hpp"
 #include "beaconless/scan/raw_scan.hpp"
 
@@ -18,21 +15,25 @@ namespace beaconless::io {
 
 /// Writes events and estimates into an MCAP file as ROS 2 messages that viewers know, as they come.
 ///
-/// Log times are the stamps, or that of the message before where stamps run backwards, so that readers keep
-/// the order in which all was written. Ranges, stamps and bearings read back as the same bits; headings pass
-/// through a quaternion. Differs: base_from_laser of a ReferencePose has no message and is left out.
+/// See RosEventWriter for what becomes of them.
 class McapEventWriter {
  public:
   /// A path that cannot be written shows in `good()`.
   explicit McapEventWriter(const std::string& path, const McapLayout& layout = {})
-      : file_(path, "ros2", layout) {}
+      : path_(path), file_(path, layout), events_(file_, RosEncoding::cdr) {}
+  McapEventWriter(const McapEventWriter&) = delete;
+  McapEventWriter& operator=(const McapEventWriter&) = delete;
+  ~McapEventWriter() = default;
 
-  void write(const Scan& scan, std::string_view topic = "/scan");
-  void write(const RawScan& scan, std::string_view topic = "/scan");  ///< sensor_msgs/msg/LaserScan
+  /// Where the laser of the scans to come sits: /tf_static.
+  void place_laser(const Pose2& base_from_laser, std::string_view base_frame = {}) {
+    events_.place_laser(base_from_laser, base_frame);
+  }
 
-  /// nav_msgs/msg/Odometry where it tells a twist, else a transform odom -> base_link on /tf.
-  void write(const Odometry& odometry);
-  void write(const ReferencePose& reference);  ///< geometry_msgs/msg/PoseStamped
+  void write(const Scan& scan, std::string_view topic = "/scan") { events_.write(scan, topic); }
+  void write(const RawScan& scan, std::string_view topic = "/scan") { events_.write(scan, topic); }
+  void write(const Odometry& odometry) { events_.write(odometry); }
+  void write(const ReferencePose& reference) { events_.write(reference); }
 
   /// The pose with its covariance on /beaconless/pose, the transform map -> base_link on /tf, and the rest on
   /// /diagnostics.
@@ -42,15 +43,14 @@ class McapEventWriter {
   void write(const Scan& scan, const PoseEstimate& estimate, const Pose2& base_from_laser);
 
   bool good() const { return file_.good(); }
-  Result<Done> finish() { return file_.finish(); }
+
+  /// Writes what is left and the summary, and says whether all of it has reached the file.
+  Result<Done> finish();
 
  private:
-  void put(std::string_view topic, std::string_view type, Stamp stamp, std::string_view body);
-
-  McapWriter file_;
-  std::map<std::pair<std::string, std::string>, std::uint16_t> channels_;  ///< by topic and type
-  std::set<std::string> mounted_;  ///< frames that /tf_static has told
-  std::uint64_t last_log_ns_ = 0;
+  std::string path_;
+  McapSink file_;
+  RosEventWriter events_;
 };
 
 }  // namespace beaconless::io

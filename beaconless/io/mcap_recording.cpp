@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "beaconless/io/mcap_recording.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "beaconless/io/mcap_messages.hpp"
 #include "beaconless/io/mcap_survey.hpp"
 #include "beaconless/io/ros_events.hpp"
+#include "beaconless/io/told_laser.hpp"
 #include "beaconless/io/topic_choice.hpp"
 
 namespace beaconless::io {
@@ -70,6 +73,17 @@ class McapStream : public EventStream {
   std::unique_ptr<EventStream> events_;
 };
 
+/// What is left of a survey without the chunks that hold none of these channels, as their indexes say.
+std::shared_ptr<const McapSurvey> parts_of(const McapSurvey& survey, const Channels& channels) {
+  auto some = std::make_shared<McapSurvey>(survey);
+  std::erase_if(some->parts, [&](const McapPart& part) {
+    return part.is_chunk && !part.channels.empty() &&
+           std::none_of(channels.begin(), channels.end(),
+                        [&](const auto& channel) { return part.channels.contains(channel.first); });
+  });
+  return some;
+}
+
 /// Several publishers of a topic are several channels.
 void add(std::vector<Topic>& topics, const Topic& topic) {
   for (Topic& known : topics)
@@ -111,14 +125,24 @@ Result<Recording> open_mcap(const std::string& path, const RecordingOptions& opt
   std::erase_if(channels, [&](const auto& channel) {
     return is_laser_scan_type(channel.second.type) && channel.second.topic != *chosen;
   });
+  const auto open_messages = [&](const std::vector<std::string>& of) {
+    Channels some;
+    for (const auto& [id, channel] : channels)
+      if (std::find(of.begin(), of.end(), channel.topic) != of.end()) some[id] = channel;
+    return std::make_unique<McapSource>(path, parts_of(*survey, some), some, nullptr);
+  };
+  const ToldLaser laser = told_laser(open_messages, topics, *chosen);
   const std::string format =
       "MCAP" + (survey->header.profile.empty() ? "" : " (" + survey->header.profile + ")");
-  return Recording(path, format, *chosen, std::move(topics),
-                   [path, survey, channels, options]() -> std::unique_ptr<EventStream> {
-                     return std::make_unique<McapStream>(
-                         path, std::make_unique<McapSource>(path, survey, channels, options.on_problem),
-                         options);
-                   });
+  Recording recording(
+      path, format, *chosen, std::move(topics),
+      [path, survey, channels, options, no_place = laser.problem]() -> std::unique_ptr<EventStream> {
+        if (!no_place.empty() && options.on_problem) options.on_problem({path, no_place});
+        return std::make_unique<McapStream>(
+            path, std::make_unique<McapSource>(path, survey, channels, options.on_problem), options);
+      });
+  if (laser.place) recording.set_laser_place(*laser.place);
+  return recording;
 }
 
 }  // namespace beaconless::io

@@ -116,6 +116,8 @@ class Surveyor {
         walk_chunk(*record);
       } else if (record->op == McapOp::message) {
         walk_message(*record);
+      } else if (record->op == McapOp::message_index) {
+        note_channel(*record);
       } else if (record->op == McapOp::header || record->op == McapOp::schema ||
                  record->op == McapOp::channel) {
         if (!file_.read_content(*record, kMaxDefinitionBytes + 1, bytes) || !define(record->op, bytes))
@@ -131,14 +133,23 @@ class Surveyor {
     McapChunk chunk;
     std::uint64_t ignored = 0;
     file_.read_chunk(record, chunk, ignored);  // one that is damaged is told when it is unpacked
-    survey_.parts.push_back({true, record.at, record.end(), chunk.start_ns});
+    survey_.parts.push_back({true, record.at, record.end(), chunk.start_ns, {}});
+  }
+
+  /// A message index follows its chunk.
+  void note_channel(const McapRecord& record) {
+    Bytes id;
+    if (survey_.parts.empty() || !survey_.parts.back().is_chunk ||
+        !file_.read_content(record, sizeof(std::uint16_t), id))
+      return;
+    survey_.parts.back().channels.insert(McapReader(id).take<std::uint16_t>());
   }
 
   void walk_message(const McapRecord& record) {
     if (!survey_.has_summary) count(record);
     auto& parts = survey_.parts;
     if (parts.empty() || parts.back().is_chunk)
-      parts.push_back({false, record.at, record.end(), 0});
+      parts.push_back({false, record.at, record.end(), 0, {}});
     else
       parts.back().to = record.end();
   }
@@ -153,12 +164,15 @@ class Surveyor {
   /// Unpacks every chunk to see what it defines and counts.
   void count_all() {
     Bytes records;
-    for (const McapPart& part : survey_.parts) {
+    for (McapPart& part : survey_.parts) {
       const auto record = part.is_chunk ? file_.record_at(part.from) : std::nullopt;
       if (!record || !file_.unpack(*record, records)) continue;  // told when the messages are read
       for_each_mcap_record(records, [&](McapOp op, auto content, std::size_t) {
         McapMessage message;
-        if (op == McapOp::message && parse(content, message)) ++survey_.messages[message.channel_id];
+        if (op == McapOp::message && parse(content, message)) {
+          ++survey_.messages[message.channel_id];
+          part.channels.insert(message.channel_id);
+        }
         define(op, content);
         return true;
       });

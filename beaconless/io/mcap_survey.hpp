@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct McapPart {
   std::uint64_t from = 0;
   std::uint64_t to = 0;
   std::uint64_t start_ns = 0;  ///< a chunk's first message by time
+  std::set<std::uint16_t>
+      channels;  ///< of a chunk's messages, as far as indexes or its contents told; empty: unknown
 };
 
 /// What a file holds, and where, without the messages themselves.

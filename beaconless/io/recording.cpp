@@ -45,9 +45,10 @@ const std::vector<Magic>& not_read() {
   return kList;
 }
 
-/// Enough for a whole block of zstd, of which nothing can be unpacked before its end.
+/// Enough for the first block that zstd packs, which gives nothing before it is whole: 128 KiB at most.
 std::string raw_head(const std::string& path) {
-  std::string head((std::size_t{128} << 10U) + 64, '\0');
+  constexpr std::size_t kHeadBytes = 160U << 10U;
+  std::string head(kHeadBytes, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));

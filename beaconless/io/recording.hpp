@@ -42,7 +42,8 @@ struct Topic {
 /// Where a recording says that its laser sits on the robot.
 struct LaserPlace {
   Pose2 base_from_laser;
-  std::string told_by;  ///< "/tf_static, base_link -> rplidar_link"
+  std::string told_by;     ///< "/tf_static, base_link -> rplidar_link"
+  std::string base_frame;  ///< "base_link"; empty where frames have no names
 
   friend bool operator==(const LaserPlace&, const LaserPlace&) = default;
 };

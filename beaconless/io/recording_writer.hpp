@@ -2,37 +2,49 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "beaconless/core/result.hpp"
 #include "beaconless/event.hpp"
-#include "beaconless/io/mcap_compression.hpp"
+#include "beaconless/io/recording.hpp"
 
 namespace beaconless::io {
 
 /// How to write a recording.
 struct RecordingWriterOptions {
-  std::string scan_topic;                               ///< where the format has topics; no topic: /scan
-  McapCompression compression = McapCompression::zstd;  ///< of MCAP files
+  std::string scan_topic;   ///< where the format has topics; no topic: /scan
+  std::string compression;  ///< of chunks: MCAP zstd, lz4, none; ROS 1 bags lz4, bz2, none; empty: the first
+  std::optional<LaserPlace> laser_place;  ///< of these scans; without it the first that a ReferencePose tells
 };
 
 /// Writes the events of a recording, whatever the format.
 class RecordingWriter {
  public:
+  RecordingWriter() = default;
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
   virtual ~RecordingWriter() = default;
 
   virtual void write(const Event& event) = 0;
   virtual bool good() const = 0;
 
-  /// Writes what is left, and says whether all of it has reached the file.
+  /// Writes what is left, gives the file its name, and says whether all of it has reached the disk. Without
+  /// this nothing is left behind.
   virtual Result<Done> finish() = 0;
 };
 
-/// Opens a recording to be written; the end of its name decides: ".mcap", or ".log", ".clf", ".carmen" and
-/// those with
-/// ".gz" for a CARMEN log. Neither has room for where the laser sits on the robot (base_from_laser).
+/// Whether a recording of this name and with these options could be written, without touching anything.
 ///
-/// Errors: another end, with all that are known; a path that cannot be written.
+/// Errors: an end that no format has, with all that are known; a compression that the format does not have.
+Result<Done> can_write_recording(const std::string& path, const RecordingWriterOptions& options);
+
+/// Opens a recording to be written; the end of its name decides: ".mcap"; ".db3", or for a folder "/" (ROS 2
+/// bag); ".bag" (ROS 1 bag); ".log", ".clf", ".carmen" and those with ".gz" (CARMEN log).
+///
+/// It is written as `path`.part, and takes its name when it is finished. Errors: those of
+/// can_write_recording; a path that cannot be written; a folder that is there and not empty; a ROS 1 bag in a
+/// build without them.
 Result<std::unique_ptr<RecordingWriter>> make_recording_writer(const std::string& path,
                                                                const RecordingWriterOptions& options = {});
 

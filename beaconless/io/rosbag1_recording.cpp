@@ -23,6 +23,7 @@ Result<Recording> open_rosbag1(const std::string& path, const RecordingOptions&)
 #include "beaconless/io/failed_pass.hpp"
 #include "beaconless/io/ros_events.hpp"
 #include "beaconless/io/rosbag1_bag.hpp"
+#include "beaconless/io/told_laser.hpp"
 #include "beaconless/io/topic_choice.hpp"
 
 namespace beaconless::io {
@@ -61,17 +62,22 @@ Result<Recording> open_rosbag1(const std::string& path, const RecordingOptions& 
   const auto chosen = choose_scan_topic(path, options, scan_topics);
   if (!chosen) return chosen.error();
   if (!chosen->empty()) read_topics.push_back(*chosen);
-  const auto open_bag = [path, read_topics, broken = std::move(survey.broken)] {
-    return std::make_unique<Rosbag1Bag>(path, read_topics, broken);
+  const auto open_bag = [path, broken = std::move(survey.broken)](const std::vector<std::string>& of) {
+    return std::make_unique<Rosbag1Bag>(path, of, broken);
   };
-  if (const auto tried = open_bag(); !tried->failure().empty()) return Error{path, tried->failure(), ""};
-  return Recording(path, "ROS 1 bag 2.0", *chosen, std::move(topics),
-                   [path, open_bag, options]() -> std::unique_ptr<EventStream> {
-                     auto bag = open_bag();
-                     if (!bag->failure().empty())
-                       return failed_pass(Error{path, bag->failure(), ""}, options.on_problem);
-                     return ros_events(path, std::move(bag), options);
-                   });
+  if (const auto tried = open_bag(read_topics); !tried->failure().empty())
+    return Error{path, tried->failure(), ""};
+  const ToldLaser laser = told_laser(open_bag, topics, *chosen);
+  Recording recording(
+      path, "ROS 1 bag 2.0", *chosen, std::move(topics),
+      [path, open_bag, read_topics, options, no_place = laser.problem]() -> std::unique_ptr<EventStream> {
+        auto bag = open_bag(read_topics);
+        if (!bag->failure().empty()) return failed_pass(Error{path, bag->failure(), ""}, options.on_problem);
+        if (!no_place.empty() && options.on_problem) options.on_problem({path, no_place});
+        return ros_events(path, std::move(bag), options);
+      });
+  if (laser.place) recording.set_laser_place(*laser.place);
+  return recording;
 }
 
 }  // namespace beaconless::io

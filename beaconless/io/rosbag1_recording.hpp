@@ -12,9 +12,10 @@ namespace beaconless::io {
 ///
 /// Besides the scans it gives Odometry (nav_msgs/Odometry, and every transform of tf whose parent frame is an
 /// odom frame) and ReferencePose (PoseStamped, PoseWithCovarianceStamped), in the order in which they were
-/// recorded. Stamps are those of the messages' headers. Errors: another bag format, no or a broken index, a
-/// damaged chunk, an encrypted bag; a build without ROS 1 bags. Cost: opening walks through the bag once,
-/// unpacking it, because librosbag trusts every length it reads.
+/// recorded. Stamps are those of the messages' headers. tf_static tells the laser's place. Errors: another
+/// bag format, no or a broken index, a damaged chunk, an encrypted bag; a build without ROS 1 bags. Cost:
+/// opening walks through the bag once, unpacking it, because librosbag trusts every length it reads; and with
+/// tf_static once more the chunks that hold it, see told_laser.
 Result<Recording> open_rosbag1(const std::string& path, const RecordingOptions& options = {});
 
 }  // namespace beaconless::io

@@ -17,6 +17,8 @@ namespace {
 constexpr int kMaxValueBytes = 64 << 20;  // a scan has some kilobytes; images are not read
 constexpr std::size_t kMaxTopics = 10'000;
 constexpr std::size_t kMaxTextBytes = 4096;
+constexpr const char* kSave =  // Debian's sqlite3 has no .recover
+    "save what is left with `sqlite3 FILE .dump | sed 's/^ROLLBACK.*/COMMIT;/' | sqlite3 NEW`";
 
 std::uint64_t file_bytes(const std::string& path) {
   std::error_code error;
@@ -117,12 +119,12 @@ Result<Rosbag2Database> Rosbag2Database::open(const std::string& path) {
   for (const char* suffix : {"-wal", "-journal"})
     if (file_bytes(path + suffix) > 0)
       return Error{path, "was not closed by its recorder: " + path + suffix + " holds a part of it",
-                   "close the recorder, or bring a copy of both up to date with `sqlite3 COPY 'PRAGMA "
+                   "close the recorder, or bring copies of both up to date with `sqlite3 COPY 'PRAGMA "
                    "journal_mode=DELETE'`"};
   if (const auto size = file_bytes(path); header->tells_size && header->bytes > size)
     return Error{path,
                  "is cut: it has " + std::to_string(size) + " of " + std::to_string(header->bytes) + " bytes",
-                 "copy it again, or save what is left with `sqlite3 FILE .recover | sqlite3 NEW`"};
+                 std::string("copy it again, or ") + kSave};
   sqlite3* raw = nullptr;
   const int status = sqlite3_open_v2(uri_of(path, header->is_wal).c_str(), &raw,
                                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
@@ -208,8 +210,7 @@ Error Rosbag2Database::damaged() const {
   const std::string says = std::string("SQLite says: ") + sqlite3_errmsg(database_.get());
   if (code == SQLITE_BUSY || code == SQLITE_LOCKED)
     return {path_, "is being written to by another program; " + says, "close it, or read a copy"};
-  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB)
-    return {path_, "is damaged; " + says, "save what is left with `sqlite3 FILE .recover | sqlite3 NEW`"};
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) return {path_, "is damaged; " + says, kSave};
   return {path_, "cannot be read as a ROS 2 bag; " + says, ""};
 }
 

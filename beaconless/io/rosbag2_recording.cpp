@@ -7,10 +7,9 @@
 #include <memory>
 #include <utility>
 
-#include "beaconless/io/cdr_message.hpp"
-#include "beaconless/io/laser_place.hpp"
 #include "beaconless/io/ros_events.hpp"
 #include "beaconless/io/rosbag2_database.hpp"
+#include "beaconless/io/told_laser.hpp"
 #include "beaconless/io/topic_choice.hpp"
 #include "beaconless/io/yaml_tree.hpp"
 #include "beaconless/io/zstd_file.hpp"
@@ -135,57 +134,6 @@ class BagMessages : public RosMessageSource {
   std::string ended_by_;
 };
 
-/// Calls `use` for the first messages of some topics, until it says that this was enough.
-template <class Use>
-void look_at(const std::vector<BagFile>& files, const std::vector<std::string>& topics, int most, Use use) {
-  if (topics.empty()) return;
-  BagMessages messages(files, topics);
-  RosMessage message;
-  for (int i = 0; i < most; ++i) {
-    const auto step = messages.next(message);
-    if (step == RosMessageSource::Step::end) return;
-    if (step == RosMessageSource::Step::message && use(message)) return;
-  }
-}
-
-/// Where tf_static says that the laser of the chosen topic sits.
-Result<std::optional<LaserPlace>> find_laser(const std::vector<BagFile>& files,
-                                             const std::vector<Topic>& topics,
-                                             const std::string& scan_topic) {
-  constexpr int kMostFixed = 10'000;
-  constexpr int kMostLooked = 1000;
-  std::vector<std::string> fixed_topics;
-  std::vector<std::string> moving_topics;
-  for (const Topic& topic : topics)
-    if (is_transforms_type(topic.type))
-      (topic.name.ends_with("tf_static") ? fixed_topics : moving_topics).push_back(topic.name);
-  std::vector<FrameTransform> fixed;
-  look_at(files, fixed_topics, kMostFixed, [&](const RosMessage& message) {
-    if (auto transforms = transforms_of(message))
-      fixed.insert(fixed.end(), transforms.value().begin(), transforms.value().end());
-    return false;
-  });
-  if (fixed.empty()) return std::optional<LaserPlace>();
-  std::string laser_frame;
-  look_at(files, {scan_topic}, kMostLooked, [&](const RosMessage& message) {
-    const auto scan = cdr::decode_laser_scan(message.bytes);
-    if (scan) laser_frame = scan->frame_id;
-    return scan.ok();
-  });
-  std::vector<std::string> bases;  // odometry moves the base; without it the usual names
-  look_at(files, moving_topics, kMostLooked, [&](const RosMessage& message) {
-    const auto transforms = transforms_of(message);
-    if (!transforms) return false;
-    for (const FrameTransform& transform : *transforms)
-      if (is_odom_transform(transform)) bases.push_back(transform.child);
-    return !bases.empty();
-  });
-  bases.insert(bases.end(), {"base_link", "base_footprint"});
-  auto place = laser_place(fixed, laser_frame, bases);
-  if (place && *place) place.value()->told_by = fixed_topics.front() + ", " + place.value()->told_by;
-  return place;
-}
-
 void add_counts(std::vector<Topic>& all, const std::vector<Topic>& more) {
   for (const Topic& topic : more) {
     const auto known = std::find_if(
@@ -236,15 +184,17 @@ Result<Recording> open_rosbag2(const std::string& path, const RecordingOptions& 
   const auto chosen = choose_scan_topic(path, options, scan_topics);
   if (!chosen) return chosen.error();
   if (!chosen->empty()) read_topics.push_back(*chosen);
-  const auto laser = chosen->empty() ? Result<std::optional<LaserPlace>>(std::optional<LaserPlace>())
-                                     : find_laser(files, topics, *chosen);
-  const std::string no_place = laser ? "" : to_string(laser.error());
-  Recording recording(path, "ROS 2 bag (SQLite)", *chosen, std::move(topics),
-                      [path, files, read_topics, options, no_place]() -> std::unique_ptr<EventStream> {
-                        if (!no_place.empty() && options.on_problem) options.on_problem({path, no_place});
-                        return ros_events(path, std::make_unique<BagMessages>(files, read_topics), options);
-                      });
-  if (laser && *laser) recording.set_laser_place(**laser);
+  const auto open_messages = [&](const std::vector<std::string>& of) {
+    return std::make_unique<BagMessages>(files, of);
+  };
+  const ToldLaser laser = told_laser(open_messages, topics, *chosen);
+  Recording recording(
+      path, "ROS 2 bag (SQLite)", *chosen, std::move(topics),
+      [path, files, read_topics, options, no_place = laser.problem]() -> std::unique_ptr<EventStream> {
+        if (!no_place.empty() && options.on_problem) options.on_problem({path, no_place});
+        return ros_events(path, std::make_unique<BagMessages>(files, read_topics), options);
+      });
+  if (laser.place) recording.set_laser_place(*laser.place);
   return recording;
 }
 

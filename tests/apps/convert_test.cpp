@@ -43,6 +43,35 @@ TEST_F(Convert, ScansComeBackAsTheSameBitsByEveryWay) {
   }
 }
 
+TEST_F(Convert, FromFormatToFormatAndBack) {
+  const auto scans = scans_of(recording());
+  std::string from = recording();
+  std::vector<std::string> names{"a.mcap", "b.db3", "c_bag/"};
+#ifdef BEACONLESS_HAS_ROSBAG1
+  names.insert(names.end(), {"d.bag", "e.mcap"});
+#endif
+  for (const std::string& name : names) {
+    const std::string to = folder.path(name);
+    const Ran ran = run({"convert", from, to, "--json"});
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["scans"], kScans);
+    EXPECT_GT(ran.json()["bytes"], 40'000);
+    EXPECT_EQ(scans_of(to), scans) << name;
+    from = to;
+  }
+}
+
+TEST_F(Convert, TheLasersPlaceGoesAlong) {
+  ASSERT_EQ(run(localize() + Words{"--out-mcap", folder.path("run.mcap")}).exit_code, 0);
+  std::string from = folder.path("run.mcap");
+  for (const char* name : {"a.db3", "b/", "c.log", "d.mcap"}) {
+    ASSERT_EQ(run({"convert", from, folder.path(name)}).exit_code, 0);
+    from = folder.path(name);
+    const auto told = run({"info", from, "--json"}).json();
+    EXPECT_NEAR(told["base_from_laser"][0].get<double>(), 0.7, 1e-12) << told;
+  }
+}
+
 TEST_F(Convert, SomeScansCanBeChosen) {
   const Ran ran = run({"convert", recording(), folder.path("a.mcap"), "--scans", "0:10:2", "--json"});
   EXPECT_EQ(ran.json()["scans"], 5U);
@@ -54,7 +83,12 @@ TEST_F(Convert, WhatCannotBeWrittenIsSaid) {
       {{recording(), folder.path("none/a.mcap")}, "cannot be written"},
       {{recording(), recording()}, "is the recording itself"},
       {{folder.path("missing.bag"), folder.path("a.mcap")}, "no such file"},
-      {{recording(), folder.path("a.mcap"), "--compression", "zip"}, "zstd"}};
+      {{recording(), folder.path("a.mcap"), "--compression", "zip"}, "zstd"},
+      {{recording(), folder.path("a.mcap"), "--compression", "bz2"}, "choose one of: zstd, lz4, none"},
+      {{recording(), folder.path("a.bag"), "--compression", "zstd"}, "choose one of: lz4, bz2, none"},
+      {{recording(), folder.path("a.db3"), "--compression", "none"}, "leave the compression out"},
+      {{recording(), folder.path("a.log"), "--compression", "none"}, "leave the compression out"},
+      {{recording(), folder.path("sim/")}, "not empty"}};
   for (const auto& [words, said] : calls) {
     const Ran ran = run(Words{"convert"} + words);
     EXPECT_NE(ran.exit_code, 0) << words[1];

@@ -8,8 +8,7 @@
 
 #include "beaconless/io/cdr_encode.hpp"
 #include "beaconless/io/cdr_message.hpp"
-#include "beaconless/io/recording_writer.hpp"
-#include "beaconless/io/ros2_schemas.hpp"
+#include "beaconless/io/ros_schemas.hpp"
 
 #include "recording_samples.hpp"
 #include "temp_folder.hpp"
@@ -100,19 +99,6 @@ TEST(McapEvents, EventsComeBackInTheirOrder) {
   EXPECT_EQ(std::get<ReferencePose>(pass.events[3]),
             (ReferencePose{raw[0].stamp, {1, 2, 0}, std::nullopt, "/reference/truepos"}));
   EXPECT_EQ(std::get<Scan>(pass.events[4]), Scan::make(raw[2]).value());
-}
-
-TEST(RecordingWriter, TheEndOfTheNameDecides) {
-  const TempFolder folder;
-  const auto raw = sample_scans(2, 20);
-  for (const char* name : {"a.mcap", "a.log", "a.clf", "a.log.gz"}) {
-    auto writer = io::make_recording_writer(folder.path(name), {.scan_topic = "/scan"});
-    ASSERT_TRUE(writer) << writer.error();
-    for (const RawScan& scan : raw) writer.value()->write(Scan::make(scan).value());
-    EXPECT_TRUE(writer.value()->finish().ok());
-    EXPECT_EQ(pass_over(folder.path(name)).scans.size(), 2U) << name;
-  }
-  EXPECT_THAT(to_string(io::make_recording_writer("a.bag").error()), HasSubstr(".mcap (MCAP)"));
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 #include "rosbag1_writer.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/LaserScan.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -100,7 +102,60 @@ void write_bag(const std::string& path, const BagContent& content, BagCompressio
     message.pose.pose = pose_of(pose);
     bag.write("/amcl_pose", ros_time(pose.stamp_ns), message);
   }
+  for (const BagPose& pose : content.fixed) {
+    BagPose half = pose;
+    half.x_m /= 2;
+    half.y_m /= 2;
+    half.theta_rad = 0.0;
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(transform(half, "base_link", "shell"));
+    bag.write("/tf_static", ros_time(pose.stamp_ns), message);
+    half.theta_rad = pose.theta_rad;
+    message.transforms.front() = transform(half, "shell", "base_laser_link");
+    bag.write("/tf_static", ros_time(pose.stamp_ns), message);
+  }
   bag.close();
+}
+
+namespace {
+
+BagPose from_pose(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
+  return {static_cast<std::int64_t>(header.stamp.toNSec()), pose.position.x, pose.position.y,
+          2.0 * std::atan2(pose.orientation.z, pose.orientation.w)};
+}
+
+BagPose from_transform(const geometry_msgs::TransformStamped& from) {
+  geometry_msgs::Pose pose;
+  pose.position.x = from.transform.translation.x;
+  pose.position.y = from.transform.translation.y;
+  pose.orientation = from.transform.rotation;
+  return from_pose(from.header, pose);
+}
+
+}  // namespace
+
+BagContent read_bag(const std::string& path) {
+  BagContent content;
+  const rosbag::Bag bag(path);
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& message : view) {
+    if (const auto scan = message.instantiate<sensor_msgs::LaserScan>()) {
+      content.scans.push_back({static_cast<std::int64_t>(scan->header.stamp.toNSec()), scan->header.frame_id,
+                               scan->angle_min, scan->angle_increment, scan->time_increment, scan->scan_time,
+                               scan->range_min, scan->range_max, scan->ranges, scan->intensities});
+    } else if (const auto odometry = message.instantiate<nav_msgs::Odometry>()) {
+      content.odometry.push_back(from_pose(odometry->header, odometry->pose.pose));
+    } else if (const auto pose = message.instantiate<geometry_msgs::PoseStamped>()) {
+      content.poses.push_back(from_pose(pose->header, pose->pose));
+    } else if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
+      const bool is_fixed = message.getTopic() == "/tf_static";
+      (is_fixed ? content.fixed : content.transforms).push_back(from_transform(tf->transforms.at(0)));
+      if (is_fixed) content.is_fixed_latched = message.isLatching();
+    } else {
+      throw std::runtime_error(message.getDataType() + " is not of the type that its MD5 sum says");
+    }
+  }
+  return content;
 }
 
 }  // namespace beaconless

@@ -31,8 +31,14 @@ struct BagContent {
   std::vector<BagPose> transforms;  ///< /tf odom -> base_link, beside one base_link -> laser
   std::vector<BagPose> poses;       ///< /reference, PoseStamped
   std::vector<BagPose> fixes;       ///< /amcl_pose, PoseWithCovarianceStamped
+  std::vector<BagPose> fixed;       ///< /tf_static base_link -> shell -> base_laser_link, half the way each
+  bool is_fixed_latched = false;    ///< of a bag that was read
 };
 
 void write_bag(const std::string& path, const BagContent& content, BagCompression compression);
+
+/// The first of every LaserScan's, Odometry's, PoseStamped's and TFMessage's transforms in a bag, by the
+/// messages' own serializers; throws where one is not of that type.
+BagContent read_bag(const std::string& path);
 
 }  // namespace beaconless

@@ -126,6 +126,14 @@ TEST(Rosbag2, CompressedFilesGiveTheSameAndLeaveNothingBehind) {
   unsetenv("TMPDIR");
 }
 
+TEST(Rosbag2, ACompressedFileIsKnownByItsFirstBlockHoweverLong) {
+  const TempFolder folder;
+  write_bag2(folder.path("bag.db3"), messages_of(sample_scans(60, 1000)));  // noise: packed to about its size
+  const std::string packed = zstd_of(folder.read("bag.db3"));
+  EXPECT_GT(packed.size(), 200'000U);
+  EXPECT_THAT(pass_over(folder.write("bag.db3.zstd", packed)).scans, SizeIs(60));
+}
+
 TEST(Rosbag2, MessagesCompressedOneByOne) {
   const TempFolder folder;
   auto messages = a_drive();

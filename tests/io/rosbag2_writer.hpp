@@ -26,7 +26,8 @@ inline void run_sql(sqlite3* database, const std::string& sql) {
   sqlite3_free(said);
 }
 
-/// Writes a bag's SQLite file as rosbag2 does: of Foxy with `is_old`, else of Jazzy.
+/// Writes a bag's SQLite file as rosbag2 does in layouts that io::Rosbag2Writer does not write: that of Foxy
+/// with `is_old`, else that of Jazzy; any bytes will do.
 inline void write_bag2(const std::string& path, const std::vector<Bag2Message>& messages,
                        bool is_old = false) {
   sqlite3* database = nullptr;

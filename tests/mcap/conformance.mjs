@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds our MCAP files against the format's own library: what we write it must read, what it writes we must read.
+// Holds our MCAP files against the format's own library: what we write it must read, what it writes we must read;
+// and our bags of ROS 2 and ROS 1 against others' readers.
 // usage: node conformance.mjs PROGRAM FOLDER; exit code 77 where node's packages are missing
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
+import { readBag, readDatabase } from "./bags.mjs";
 import { readIndexed, readStreamed, write } from "./foreign.mjs";
 
 const [program, folder] = process.argv.slice(2);
@@ -99,6 +101,38 @@ for (const [name, layout] of Object.entries(layouts)) {
   const read = sweepsOf(path(`foreign-${name}.log`));
   expectSweeps(read.map(({ ranges, sec, nanosec }) => ({ ranges, header: { stamp: { sec, nanosec } } })), wanted,
                `theirs, ${name}`);
+}
+// 4. Bags that convert writes, with the laser's place.
+const isPlaced = (tf) => tf.messages.length === 1 && tf.messages[0].transforms[0].header.frame_id === "base_link" &&
+    tf.messages[0].transforms[0].child_frame_id === mounting.child_frame_id &&
+    tf.messages[0].transforms[0].transform.translation.x === 0.7;
+run("convert", path("run.mcap"), path("run.db3"));
+const database = readDatabase(path("run.db3"));
+if (database) {
+  expectSweeps(database["/scan"].messages, sweeps, "our db3");
+  expect(isPlaced(database["/tf_static"]), "the laser in our db3");
+  expect(database["/tf_static"].qos.includes("durability: 1") && database["/scan"].qos.includes("durability: 2"),
+         "the settings of the publishers");
+  const log = topics["/scan"].log.map(Number);
+  expect(database["/scan"].log.every((ns, i) => Math.abs(Number(ns) - log[i]) < 1000), "the times of recording");
+}
+const said = execFileSync(program, ["convert", "--help"], { encoding: "utf8" });
+expect(said.includes("ROS 1 bag"), "convert names its formats");
+for (const compression of ["none", "lz4"]) {
+  try {
+    run("convert", path("run.mcap"), path(`${compression}.bag`), "--compression", compression);
+  } catch (error) {
+    if (!String(error.stderr).includes("built without")) throw error;
+    console.log("this build has no ROS 1 bags: they are not checked");
+    break;
+  }
+  const bag = await readBag(path(`${compression}.bag`));
+  if (!bag) break;
+  expect(bag["/scan"].type === "sensor_msgs/LaserScan", "the type of /scan in a bag");
+  const messages = bag["/scan"].messages.map(({ ranges, header }) => (
+      { ranges, header: { stamp: { sec: header.stamp.sec, nanosec: header.stamp.nsec } } }));
+  expectSweeps(messages, sweeps, `our bag, ${compression}`);
+  expect(isPlaced(bag["/tf_static"]) && bag["/tf_static"].latching, "the laser in our bag");
 }
 writeFileSync(path("checks.txt"), `${checks}\n`);
 console.log(`conformance: ${checks} checks good`);

@@ -6,9 +6,19 @@ import { readFileSync, writeFileSync } from "node:fs";
 const places = [process.env.BEACONLESS_NODE_MODULES, new URL(".", import.meta.url).pathname];
 const require = createRequire(import.meta.url);
 
+const load = (name) => require(require.resolve(name, { paths: places.filter(Boolean) }));
+
+/// A package that is not needed; nothing where it is absent.
+export function optional(name) {
+  try {
+    return load(name);
+  } catch {
+    return undefined;
+  }
+}
+
 /// The packages, or the end of the program with "skipped" (exit code 77).
 export function packages() {
-  const load = (name) => require(require.resolve(name, { paths: places.filter(Boolean) }));
   try {
     return {
       mcap: load("@mcap/core"),
@@ -74,7 +84,7 @@ export function readStreamed(path) {
   return { topics };
 }
 
-const kLaserScan = `std_msgs/Header header
+export const kLaserScan = `std_msgs/Header header
 float32 angle_min
 float32 angle_max
 float32 angle_increment

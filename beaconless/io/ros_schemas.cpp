@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "beaconless/io/ros2_schemas.hpp"
+#include "beaconless/io/ros_schemas.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "beaconless/io/ros_events.hpp"
@@ -76,6 +78,11 @@ const Definition* find(std::string_view name) {
   return nullptr;
 }
 
+/// What ROS 1 writes otherwise: its time is a primitive, and its Header counts.
+constexpr std::string_view kTime = "builtin_interfaces/Time";
+constexpr std::string_view kHeader = "std_msgs/Header";
+constexpr std::string_view kRos1Header = "uint32 seq\ntime stamp\nstring frame_id\n";
+
 /// All that a message is made of, each once.
 void gather(const Definition& of, std::vector<const Definition*>& found) {
   for (const std::string_view name : of.parts) {
@@ -86,17 +93,35 @@ void gather(const Definition& of, std::vector<const Definition*>& found) {
   }
 }
 
-}  // namespace
-
-std::string ros2_schema(std::string_view name) {
+std::string schema(std::string_view name, bool is_ros1) {
   const Definition* definition = find(short_type(name));
   if (definition == nullptr) return "";
   std::vector<const Definition*> parts;
   gather(*definition, parts);
   std::string text(definition->fields);
-  for (const Definition* part : parts)
-    text.append(80, '=').append("\nMSG: ").append(part->name).append("\n").append(part->fields);
+  for (const Definition* part : parts) {
+    if (is_ros1 && part->name == kTime) continue;
+    const auto fields = is_ros1 && part->name == kHeader ? kRos1Header : part->fields;
+    text.append(80, '=').append("\nMSG: ").append(part->name).append("\n").append(fields);
+  }
   return text;
+}
+
+}  // namespace
+
+std::string ros2_schema(std::string_view name) { return schema(name, false); }
+std::string ros1_schema(std::string_view name) { return schema(name, true); }
+
+std::string_view ros1_md5(std::string_view name) {
+  using Sum = std::pair<std::string_view, std::string_view>;
+  constexpr std::array<Sum, 4> kSums{{{"sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369"},
+                                      {"nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7"},
+                                      {"geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5"},
+                                      {"tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec"}}};
+  const std::string wanted = short_type(name);
+  const auto* const found =
+      std::find_if(kSums.begin(), kSums.end(), [&](const Sum& sum) { return sum.first == wanted; });
+  return found == kSums.end() ? std::string_view() : found->second;
 }
 
 }  // namespace beaconless::io
