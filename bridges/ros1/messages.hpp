@@ -67,6 +67,7 @@ struct PosesMessage {
 struct PointsMessage {
   std::int64_t stamp_ns = 0;
   std::string frame_id;
+  std::string of_laser;  ///< the frame of its scans; those of several lasers stand side by side
   std::vector<std::array<double, 2>> points_m;
   std::array<float, 3> colour{};  ///< red, green, blue, 0 … 1
 };

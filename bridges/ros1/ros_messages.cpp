@@ -107,7 +107,7 @@ nav_msgs::Path ros_path(const PosesMessage& poses) {
 
 visualization_msgs::Marker ros_points(const PointsMessage& points) {
   auto message = headed<visualization_msgs::Marker>(points.stamp_ns, points.frame_id);
-  message.ns = "beams";
+  message.ns = points.of_laser;
   message.type = visualization_msgs::Marker::POINTS;
   message.action = visualization_msgs::Marker::ADD;
   message.pose.orientation.w = 1.0;

@@ -69,7 +69,7 @@ PosesMessage places_message(const PoseEstimate& estimate, std::span<const PoseCa
 
 PointsMessage beams_message(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate,
                             const Scan& scan, const Pose2& base_from_laser, const std::string& frame) {
-  PointsMessage message{estimate.stamp.ns, frame, {}, kRed};
+  PointsMessage message{estimate.stamp.ns, frame, scan.frame_id(), {}, kRed};
   if (estimate.ok()) message.colour = kGreen;
   if (estimate.status == Status::degraded) message.colour = kYellow;
   const Pose2 map_from_laser = estimate.map_from_base * base_from_laser;
