@@ -82,6 +82,15 @@ Result<Begun> begun(std::unique_ptr<Localizer> localizer, const LocalizeWords& w
   return Begun{std::make_unique<ResumingLocalizer>(std::move(localizer), *pose), words_of(*pose)};
 }
 
+/// Those of several lasers stay apart.
+std::string topic_for_viewers(const LaserWords& words, const std::vector<LaserOnRobot>& lasers,
+                              const Scan& scan) {
+  for (std::size_t i = 0; i < lasers.size(); ++i)
+    if (lasers[i].frame_id == scan.frame_id())
+      return words.topics[i].starts_with('/') ? words.topics[i] : "/" + words.topics[i];
+  return "/scan";
+}
+
 /// Takes the scans one after the other.
 Result<Done> localize_drive(const LocalizeWords& words, const LocalizePlan& plan,
                             const LocalizeInputs& inputs, std::unique_ptr<Localizer> localizer,
@@ -105,7 +114,8 @@ Result<Done> localize_drive(const LocalizeWords& words, const LocalizePlan& plan
                         watch.update(event, estimate);
                         const auto* scan = std::get_if<Scan>(&event);
                         if (mcap && scan != nullptr)
-                          mcap->write(*scan, estimate, base_from_laser_of(plan.config, scan->frame_id()));
+                          mcap->write(*scan, estimate, base_from_laser_of(plan.config, scan->frame_id()),
+                                      topic_for_viewers(words.lasers, plan.config.lasers, *scan));
                       });
   watch.finish();
   if (mcap)

@@ -15,10 +15,11 @@ void McapEventWriter::write(const PoseEstimate& estimate) {
               encode_diagnostics(estimate, "beaconless"));
 }
 
-void McapEventWriter::write(const Scan& scan, const PoseEstimate& estimate, const Pose2& base_from_laser) {
+void McapEventWriter::write(const Scan& scan, const PoseEstimate& estimate, const Pose2& base_from_laser,
+                            std::string_view topic) {
   place_laser(base_from_laser);
   write(estimate);
-  write(scan);
+  write(scan, topic);
 }
 
 Result<Done> McapEventWriter::finish() {

@@ -40,7 +40,8 @@ class McapEventWriter {
   void write(const PoseEstimate& estimate);
 
   /// A scan that was localized: all of the above, and where the laser sits on the robot on /tf_static.
-  void write(const Scan& scan, const PoseEstimate& estimate, const Pose2& base_from_laser);
+  void write(const Scan& scan, const PoseEstimate& estimate, const Pose2& base_from_laser,
+             std::string_view topic = "/scan");
 
   bool good() const { return file_.good(); }
 

@@ -61,7 +61,9 @@ std::string ros2_type(std::string_view type) {
 }  // namespace
 
 void RosEventWriter::place_laser(const Pose2& base_from_laser, std::string_view base_frame) {
-  if (!mount_) mount_ = Mount{base_from_laser, std::string(base_frame.empty() ? kBase : base_frame), {}};
+  if (!mount_) mount_.emplace();
+  mount_->base_from_laser = base_from_laser;
+  mount_->base_frame = base_frame.empty() ? kBase : base_frame;
 }
 
 void RosEventWriter::put(std::string_view topic, std::string_view type, Stamp stamp, std::string_view body) {
@@ -104,7 +106,7 @@ void RosEventWriter::write(const Odometry& odometry) {
 }
 
 void RosEventWriter::write(const ReferencePose& reference) {
-  if (reference.base_from_laser) place_laser(*reference.base_from_laser);
+  if (reference.base_from_laser && !mount_) place_laser(*reference.base_from_laser);
   const std::string topic = topic_of(reference.source);
   const Pose2& pose = reference.map_from_base;
   put(topic.empty() ? reference_topic_of(reference.source) : topic, "geometry_msgs/PoseStamped",

@@ -28,7 +28,7 @@ class RosEventWriter {
 
   /// Where the laser of the scans to come sits; goes to /tf_static before the first of them in each frame. A
   /// scan whose frame has no name, or that of the base, is then told to be in the frame "laser", or nobody
-  /// could place it. The first place stays. An empty `base_frame` is "base_link".
+  /// could place it. A frame's first place stays. An empty `base_frame` is "base_link".
   void place_laser(const Pose2& base_from_laser, std::string_view base_frame = {});
 
   void write(const RawScan& scan, std::string_view topic);  ///< sensor_msgs/LaserScan
@@ -36,7 +36,7 @@ class RosEventWriter {
 
   /// nav_msgs/Odometry where it tells a twist, else a transform odom -> base_link on /tf.
   void write(const Odometry& odometry);
-  /// geometry_msgs/PoseStamped; its base_from_laser, if it has one, places the laser.
+  /// geometry_msgs/PoseStamped; its base_from_laser, if it has one, places a laser that was not placed.
   void write(const ReferencePose& reference);
 
   /// A message by its own body; `type` is written without "msg/".

@@ -61,7 +61,8 @@ def drive_of(name, folder):
         (folder / "room.yaml").write_text(room_drive.WALLS, encoding="utf-8")
         return Drive(folder / "room.bag", folder / "room.yaml", "map", "base_link", (5.5, 4.0, 90.0),
                      {"/front": "0.3,0.1,0", "/rear": "-0.3,-0.1,180"}, "first")
-    data = Path(os.environ.get("BEACONLESS_DATA", "/nowhere")) / "jarvis"
+    beside = Path(__file__).resolve().parents[2] / "../shared/data"
+    data = Path(os.environ.get("BEACONLESS_DATA", beside)) / "jarvis"
     if not data.exists():
         skip(f"there is no {data}; BEACONLESS_DATA names the folder of recordings")
     return Drive(data / "jarvis_circular_path_fast.bag", data / "maps/i-108_10mm.yaml", "plan", "base_footprint",

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// `beaconless localize` and `map build` with the scans of two lasers.
+#include <gmock/gmock.h>
+
+#include "beaconless/io/mcap_events.hpp"
+#include "beaconless/io/raw_from.hpp"
+#include "beaconless/io/tum.hpp"
+#include "beaconless/sim/scenario.hpp"
+
+#include "tests/apps/program.hpp"
+#include "tests/support/rooms.hpp"
+
+namespace beaconless {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two lasers on a robot that drives through a room, in one MCAP file.
+class SeveralLasers : public Program {
+ protected:
+  void SetUp() override {
+    folder.write("room.yaml",
+                 "walls:\n"
+                 "  - [[0, 0], [6, 0], [6, 2], [7.5, 2], [7.5, 3.2], [6, 3.2], [6, 5], [0, 5], [0, 0]]\n"
+                 "  - [[2.0, 3.4], [2.5, 3.4], [2.5, 3.9], [2.0, 3.9], [2.0, 3.4]]\n");
+    write_drive(drive(), "rear");
+  }
+
+  std::string drive() const { return folder.path("drive.mcap"); }
+  std::string truth() const { return folder.path("truth.tum"); }
+
+  /// The rear laser's scans have a frame that may be that of the other.
+  void write_drive(const std::string& path, const std::string& rear_frame) const {
+    const std::vector<std::pair<std::string, Pose2>> lasers{{"front", {0.5, 0.0, 0.0}},
+                                                            {rear_frame, {-0.5, 0.0, kPi}}};
+    std::vector<sim::SimulatedRun> runs;
+    for (const auto& [frame, place] : lasers) {
+      sim::Scenario scenario;
+      scenario.plan = test::niche_room();
+      scenario.path = sim::Waypoints{.points = {{2.0, 1.5}, {4.0, 2.0}}, .speed_mps = 1.0};
+      scenario.lidar = {.beam_count = 361, .angle_min_deg = -90.0, .angle_max_deg = 90.0, .rate_hz = 10.0};
+      scenario.lidar.sweep = sim::Sweep::instantaneous;  // maps are drawn as if it were
+      scenario.duration_s = 2.0;
+      scenario.base_from_laser = place;
+      scenario.seed = static_cast<int>(runs.size()) + 1;
+      runs.push_back(sim::simulate(scenario).value());
+    }
+    io::McapEventWriter out(path);
+    io::TumWriter poses(truth());
+    for (std::size_t i = 0; i < runs[0].events.size(); ++i) {
+      poses.write(runs[0].truth[i].stamp, runs[0].truth[i].pose);
+      for (std::size_t k = 0; k < lasers.size(); ++k) {
+        RawScan raw = io::raw_from(std::get<Scan>(runs[k].events[i]));
+        raw.frame_id = lasers[k].first;
+        out.place_laser(lasers[k].second);
+        out.write(raw, k == 0 ? "/front" : "/rear");
+      }
+    }
+    ASSERT_TRUE(out.finish());
+    ASSERT_TRUE(poses.finish());
+  }
+
+  Words localize(const Words& more) const {
+    return Words{"--json",       "localize", drive(),       "--map", folder.path("room.yaml"),
+                 "--start-from", truth(),    "--reference", truth()} +
+           more;
+  }
+};
+
+TEST_F(SeveralLasers, AreLocalizedTogether) {
+  const Ran ran = run(localize({"--topic", "/front", "--topic", "/rear"}));
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(ran.json()["status_counts"]["ok"], 40);
+  // The file's /tf_static places each of them: nearer than one alone can be.
+  const Ran front = run(localize({"--topic", "/front"}));
+  EXPECT_LT(ran.json()["error"]["position_m"]["rmse"], front.json()["error"]["position_m"]["rmse"]);
+  EXPECT_LT(ran.json()["error"]["position_m"]["max"], 0.02);
+}
+
+/// The file tells by /tf_static where they sit; who tells otherwise is believed, in the order of the topics.
+TEST_F(SeveralLasers, SitWhereTheWordsSay) {
+  const Ran right = run(localize({"--topic", "/rear", "--topic", "/front", "--base-from-laser=-0.5,0,180",
+                                  "--base-from-laser", "0.5,0,0"}));
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_LT(right.json()["error"]["position_m"]["max"], 0.02);
+  const Ran swapped = run(localize({"--topic", "/front", "--topic", "/rear", "--base-from-laser=-0.5,0,180",
+                                    "--base-from-laser", "0.5,0,0"}));
+  EXPECT_GT(swapped.json()["error"]["position_m"]["max"], 0.5);
+}
+
+TEST_F(SeveralLasers, AreWrittenForViewersUnderTheirOwnTopicsAndAtTheirPlaces) {
+  const Ran ran =
+      run(localize({"--topic", "/front", "--topic", "/rear", "--out-mcap", folder.path("run.mcap")}));
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  for (const auto& [topic, x_m] : {std::pair{"/front", 0.5}, {"/rear", -0.5}}) {
+    const auto written = io::open_recording(folder.path("run.mcap"), {.topic = topic});
+    ASSERT_TRUE(written) << to_string(written.error());
+    ASSERT_TRUE(written->laser_place());
+    EXPECT_EQ(written->laser_place()->base_from_laser.x_m, x_m);
+  }
+}
+
+TEST_F(SeveralLasers, DrawOneMap) {
+  const Ran ran = run({"--json", "map", "build", drive(), "--topic", "/front", "--topic", "/rear", "--poses",
+                       truth(), "--out", folder.path("both.yaml")});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(ran.json()["scans"], 40);
+  const Ran localized = run({"--json", "localize", drive(), "--map", folder.path("both.yaml"), "--topic",
+                             "/rear", "--start-from", truth(), "--reference", truth()});
+  ASSERT_EQ(localized.exit_code, 0) << localized.err;
+  EXPECT_LT(localized.json()["error"]["position_m"]["max"], 0.1);
+}
+
+TEST_F(SeveralLasers, AreRefusedWhereTheyCannotBeToldApartOrPlaced) {
+  const Ran missing = run(localize({"--topic", "/front", "--topic", "/rear", "--base-from-laser", "0,0,0"}));
+  EXPECT_NE(missing.exit_code, 0);
+  EXPECT_THAT(missing.err, HasSubstr("2 lasers and 1 places"));
+  const Ran slam = run({"map", "build", drive(), "--slam", "hector", "--topic", "/front", "--topic", "/rear",
+                        "--out", folder.path("slam.yaml")});
+  EXPECT_EQ(slam.exit_code, 2);
+  EXPECT_THAT(slam.err, HasSubstr("one laser"));
+  const Ran kept = run(localize({"--topic", "/front", "--topic", "/rear", "--blackbox", folder.path("box")}));
+  EXPECT_EQ(kept.exit_code, 2);
+  EXPECT_THAT(kept.err, HasSubstr("one laser"));
+  write_drive(drive(), "front");
+  const Ran alike = run(localize({"--topic", "/front", "--topic", "/rear"}));
+  EXPECT_NE(alike.exit_code, 0);
+  EXPECT_THAT(alike.err, HasSubstr("\"front\""));
+}
+
+}  // namespace
+}  // namespace beaconless
