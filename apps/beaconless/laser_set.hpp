@@ -34,7 +34,7 @@ struct LaserSet {
 ///
 /// Errors: those of open_recording, a topic without scans, a laser whose place nobody tells, two of one
 /// frame.
-Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, const LaserWords& lasers,
+Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, const LaserWords& told,
                              ProblemLog& problems);
 
 }  // namespace beaconless::cli

@@ -87,7 +87,7 @@ Result<LocalizeInputs> open_inputs(const Console& console, const LocalizeWords& 
   // 1. The recording, the map, and the first scan.
   auto opened = open_scans(words, problems);
   if (!opened) return opened.error();
-  auto& [recording, lasers] = *opened;
+  auto [recording, lasers] = *std::move(opened);
   auto map = io::read_map(words.map);
   if (!map) return map.error();
   if (const auto* anywhere = plan.start ? std::get_if<StartAnywhere>(&*plan.start) : nullptr;

@@ -46,7 +46,7 @@ void flatten(const std::string& name, XmlRpc::XmlRpcValue value, Parameters& int
     }
     case XmlRpc::XmlRpcValue::TypeArray: {
       std::string words;
-      for (int i = 0; i < value.size(); ++i) {
+      for (int i = 0; i < value.size(); ++i) {  // NOLINT(modernize-loop-convert): begin() is that of a struct
         Parameters one;
         flatten("", value[i], one);
         words += (words.empty() ? "" : " ") + one[""];
