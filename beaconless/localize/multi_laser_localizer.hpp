@@ -16,12 +16,13 @@ namespace beaconless {
 /// One estimate from several lasers on one robot, each with its own place and its own clock ticks.
 ///
 /// Every laser has a localizer of its own, which sees only its scans. What the others told last is carried to
-/// the moment of a scan by the robot's motion, and what agrees is fused by its information, widened
-/// by how far off each was of late: lasers that see different walls help each other along the directions that
-/// one of them cannot see. Two that are sure of different places are told as such. One that is lost is set to
-/// where the others are, less and less often where that is in vain: a laser may see what is not on the map.
-/// Differs: the map's own errors are common to all lasers and are not averaged; the fused covariance does not
-/// know of them.
+/// the moment of a scan by the robot's motion, and what agrees is fused by its information, widened by how
+/// far off each was of late: lasers that see different walls help each other along the directions that one
+/// of them cannot see. Trust needs all of them: while one is lost, or elsewhere, the quality stays below 0.5;
+/// two that are equally sure of different places are told as such. One that is lost is set, ever less often,
+/// to where a trusted one is, and looks by itself in between. Differs: the map's own errors are common to all
+/// lasers and are not averaged; the fused covariance does not know of them. The risk of the level is that of
+/// the lasers added up.
 ///
 /// A scan of a frame that no laser has changes nothing, and its estimate says so. Cost: that of a single
 /// localizer, and some microseconds.
@@ -61,13 +62,16 @@ class MultiLaserLocalizer final : public Localizer {
     std::size_t laser = 0;
     const PoseEstimate* estimate = nullptr;
     PoseOpinion then;
+    bool is_with = true;  // the leading one
   };
 
   PoseEstimate without_scan(const Event& event);
   std::size_t laser_of(const Scan& scan) const;
-  bool is_resting(std::size_t laser, Stamp stamp) const;
-  void set_right(std::size_t laser, const Pose2& map_from_base, Stamp stamp);
-  const Word& best_word() const;
+  void set_right(std::size_t laser, Stamp stamp);
+  const Word& lead();
+  bool has_jumped(const Word& best, const Pose2& pose) const;
+  void forget();
+  PoseEstimate nothing_new(Stamp stamp, std::string_view reason) const;
   void hear(std::size_t laser, const Scan& scan);
   void gather_words(Stamp stamp, std::size_t but_of);
   double learn_excess(const Word& word, const Word& best);
@@ -80,6 +84,9 @@ class MultiLaserLocalizer final : public Localizer {
   std::vector<std::string> frames_;
   std::vector<Word> words_;
   std::size_t last_laser_ = 0;
+  std::optional<std::size_t> leader_;
+  std::size_t last_leader_ = 0;
+  bool is_started_ = false;
   PoseEstimate last_;
 };
 

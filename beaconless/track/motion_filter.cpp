@@ -109,13 +109,19 @@ void MotionFilter::correct(Stamp stamp, const Pose2& map_from_base, const Eigen:
   take(*told);
 }
 
-bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {
-  // What the poses told is the velocity in the middle of the last step.
-  const double since_s = 0.5 * (usual_step_s_ + lasting_s);
+// What the poses told is the velocity in the middle of the last step.
+double MotionFilter::since_told_s(double lasting_s) const { return 0.5 * (usual_step_s_ + lasting_s); }
+
+bool MotionFilter::is_possible(const ToldTwist& told, double lasting_s) const {
   const Eigen::Vector3d off = told.per_s - motion_.per_s;
   Eigen::Matrix3d possible = motion_.covariance + told.covariance + kTiny;
-  possible += possible_change(since_s).asDiagonal();
-  if (!(off.dot(possible.ldlt().solve(off)) < kFarOff)) return false;
+  possible += possible_change(since_told_s(lasting_s)).asDiagonal();
+  return off.dot(possible.ldlt().solve(off)) < kFarOff;
+}
+
+bool MotionFilter::hear(const ToldTwist& told, double lasting_s) {
+  if (!is_possible(told, lasting_s)) return false;
+  const double since_s = since_told_s(lasting_s);
   note_change(told, since_s, kHeardNoise);
   motion_.covariance += expected_change(since_s);
   take(told);

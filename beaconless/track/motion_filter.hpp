@@ -60,6 +60,10 @@ class MotionFilter {
   std::optional<ToldTwist> told_by(Stamp stamp, const Pose2& map_from_base,
                                    const Eigen::Matrix3d& covariance) const;
 
+  /// Whether a velocity that was measured otherwise, over `lasting_s` from the last pose on, is not far from
+  /// what is possible.
+  bool is_possible(const ToldTwist& told, double lasting_s) const;
+
   /// Tells it of a velocity that was measured otherwise, as the mean of `lasting_s` from the last pose on.
   /// Not heard, and false, where it is far from what is possible: a slipping wheel, a jump of somebody's
   /// estimate.
@@ -81,6 +85,7 @@ class MotionFilter {
   Eigen::Vector3d lately_ = Eigen::Vector3d::Ones();  // squared change of motion, as a share of what may be
 
   double elapsed_s(Stamp stamp) const;
+  double since_told_s(double lasting_s) const;
   Eigen::Vector3d possible_change(double elapsed_s) const;
   Eigen::Matrix3d expected_change(double elapsed_s) const;
   void note_change(const ToldTwist& told, double elapsed_s, double noise);
