@@ -50,7 +50,7 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
                       "MCAP file with the scans, poses, transforms and diagnostics, for viewers");
   command
       ->add_option("--topic", words->lasers.topics,
-                   "Which scans: a topic of a bag, a keyword of a log; repeated for several lasers")
+                   "Which scans: a topic of a bag, a keyword of a log; of several lasers one topic each")
       ->allow_extra_args(false);
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")

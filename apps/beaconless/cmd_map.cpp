@@ -170,7 +170,7 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--topic", words->lasers.topics,
-                   "Which scans: a topic of a bag, a keyword of a log; repeated for several lasers")
+                   "Which scans: a topic of a bag, a keyword of a log; of several lasers one topic each")
       ->allow_extra_args(false);
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")

@@ -51,6 +51,10 @@ Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, co
     if (!frame) return frame.error();
     const auto place = place_of(*recording, places, i);
     if (!place) return place.error();
+    if (frame->empty())
+      return Error{
+          path, "scans of " + topics[i] + " tell no frame, by which those of several lasers are told apart",
+          "several lasers need a bag or an MCAP file with frames"};
     for (const LaserOnRobot& other : lasers)
       if (other.frame_id == *frame)
         return Error{path, topics[i] + " has the frame \"" + *frame + "\" of another of the lasers",

@@ -22,7 +22,7 @@ Node::Node(const Settings& settings, Link& link, Localization::Maker maker)
       link_(link),
       localization_(settings.localizer, std::move(maker)),
       memory_(settings.node.pose_file),
-      last_heard_s_(link.steady_s()) {
+      begun_s_(link.steady_s()) {
   path_.frame_id = config_.global_frame_id;
 }
 
@@ -145,15 +145,28 @@ Answer Node::serve_save_pose() {
                                           : "kept as initial_pose_x, _y and _a, and in " + config_.pose_file};
 }
 
+void Node::look_after_scans(double now_s) {
+  if (heard_s_.empty() && now_s - begun_s_ > kNoScan_s)
+    complain(
+        "scan", Level::error,
+        fmt::format("no scan for {:.0f} s; is the topic right, is its driver running?", now_s - begun_s_));
+  if (!heard_s_.empty()) complaints_.clear("scan");
+  for (const auto& [frame, heard_s] : heard_s_) {
+    const std::string subject = "scan " + frame;
+    if (now_s - heard_s > kNoScan_s)
+      complain(subject, Level::error,
+               fmt::format("no scan for {:.0f} s; is its driver running?", now_s - heard_s));
+    else
+      complaints_.clear(subject);
+  }
+}
+
 void Node::tick() {
   drain();
   const double now_s = link_.steady_s();
   if (now_s - last_told_s_ < kTell_s) return;
   last_told_s_ = now_s;
-  if (now_s - last_heard_s_ > kNoScan_s)
-    complain("scan", Level::error,
-             fmt::format("no scan for {:.0f} s; is the topic right, is its driver running?",
-                         now_s - last_heard_s_));
+  look_after_scans(now_s);
   DiagnosticMessage diagnostic = diagnostic_message(localization_.last(), complaints_.at(now_s));
   diagnostic.values.emplace_back("method", localization_.method());
   for (const LaserSays& laser : localization_.lasers())

@@ -62,6 +62,7 @@ class Node {
   };
 
   void start();
+  void look_after_scans(double now_s);
   bool check_stamp(const ScanMessage& scan);
   void drain();
   Step take(Waiting& waiting);
@@ -95,7 +96,9 @@ class Node {
   std::optional<Stamp> first_scan_;      // by its own clock
   std::optional<Stamp> last_wheels_;     // that were told on
   bool has_seen_wheels_ = false;
-  double last_heard_s_;
+  std::map<std::string, double> heard_s_;  // when, by the frames of the scans that are used
+  double begun_s_;
+  std::int64_t last_tf_ns_ = 0;
   double last_told_s_ = 0.0;
   PosesMessage path_;
   bool is_path_new_ = false;

@@ -21,14 +21,15 @@ constexpr std::size_t kLongestPath = 5000;
 
 void Node::hear_scan(const ScanMessage& scan) {
   ++scans_heard_;
-  last_heard_s_ = link_.steady_s();
-  complaints_.clear("scan");
-  if (!check_stamp(scan)) {
+  const bool is_used = lasers_.contains(scan.frame_id) || lasers_.size() < scan_topics_of(config_).size();
+  if (is_used) heard_s_[scan.frame_id] = link_.steady_s();
+  if (is_used && !check_stamp(scan)) {
     ++scans_dropped_;
     return;
   }
-  if (!first_heard_s_) first_heard_s_ = last_heard_s_;
-  waiting_.push_back({scan, last_heard_s_, std::nullopt});
+  const double now_s = link_.steady_s();
+  if (!first_heard_s_) first_heard_s_ = now_s;
+  waiting_.push_back({scan, now_s, std::nullopt});
   find_laser(waiting_.back());  // however many scans of others wait before it
   if (waiting_.size() > kMostWaiting) {
     waiting_.pop_front();
@@ -41,7 +42,8 @@ void Node::hear_scan(const ScanMessage& scan) {
 
 bool Node::check_stamp(const ScanMessage& scan) {
   const Stamp stamp{scan.stamp_ns};
-  switch (stamps_[scan.frame_id].see(stamp)) {
+  StampWatch& watch = stamps_[scan.frame_id];
+  switch (watch.see(stamp)) {
     case StampOrder::follows:
       break;
     case StampOrder::repeated:
@@ -59,6 +61,10 @@ bool Node::check_stamp(const ScanMessage& scan) {
                    ": a clock was set, or a recording began anew; going on from the last pose",
                kRemember_s);
       waiting_.clear();
+      last_tf_ns_ = 0;
+      // The other lasers' stamps will jump as well, and once is enough.
+      for (auto& [frame, other] : stamps_)
+        if (&other != &watch) other = {};
       first_scan_.reset();
       last_wheels_.reset();
       localization_.begin_anew();
@@ -163,8 +169,10 @@ Node::Step Node::use_lasers() {
     if (laser.mounted) all.push_back({name, laser.mounted->base_from_laser});
   if (all.size() < scan_topics_of(config_).size() && link_.steady_s() - *first_heard_s_ < kAllLasersWait_s)
     return Step::wait;
-  are_lasers_new_ = false;
-  if (auto set = localization_.set_lasers(all); !set) complain("map", Level::error, to_string(set.error()));
+  if (auto set = localization_.set_lasers(all); set)
+    are_lasers_new_ = false;  // else the next scan tries again: there may be a better map by then
+  else
+    complain("map", Level::error, to_string(set.error()));
   return Step::done;
 }
 
@@ -224,6 +232,7 @@ void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& e
 
 void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base) {
   if (!config_.tf_broadcast) return;
+  if (estimate.stamp.ns <= last_tf_ns_) return;  // of two lasers at one moment: tf refuses a repetition
   TransformMessage message{(estimate.stamp + config_.transform_tolerance).ns, config_.global_frame_id,
                            config_.base_frame_id, transform_of(estimate.map_from_base)};
   if (odom_from_base) {
@@ -236,6 +245,7 @@ void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odo
     if (has_seen_wheels_ || may_come) return;
   }
   link_.send_transform(message);
+  last_tf_ns_ = estimate.stamp.ns;
 }
 
 void Node::grow_path(const PoseEstimate& estimate) {

@@ -7,7 +7,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/SetMap.h>
 #include <ros/ros.h>
-#include <rosgraph_msgs/Clock.h>
+#include <ros/xmlrpc_manager.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -62,6 +62,25 @@ void flatten(const std::string& name, XmlRpc::XmlRpcValue value, Parameters& int
   }
 }
 
+// roscpp subscribes to the clock with its first master, for as long as the process lives; the next master has
+// to be told of that subscription, and its publishers have to be handed on.
+void hear_clock_again() {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue publishers;
+  request[0] = ros::this_node::getName();
+  request[1] = "/clock";
+  request[2] = "rosgraph_msgs/Clock";
+  request[3] = ros::XMLRPCManager::instance()->getServerURI();
+  if (!ros::master::execute("registerSubscriber", request, response, publishers, false)) return;
+  // As the master itself would tell us of publishers.
+  request[2] = publishers;
+  const auto& manager = ros::XMLRPCManager::instance();
+  auto* own = manager->getXMLRPCClient("127.0.0.1", static_cast<int>(manager->getServerPort()), "/");
+  own->execute("publisherUpdate", request, response);
+  manager->releaseXMLRPCClient(own);
+}
+
 // Services without words of their own say what went wrong by failing, and in the log.
 bool told(const Answer& answer) {
   if (!answer.is_done) ROS_WARN("%s", answer.words.c_str());
@@ -93,11 +112,6 @@ struct RosLink::Wires {
       subscribers.push_back(node.subscribe<sensor_msgs::LaserScan>(
           topic, kScansWaiting, [&on](const sensor_msgs::LaserScan::ConstPtr& m) { on.on_scan(plain(*m)); },
           {}, ros::TransportHints().tcpNoDelay()));
-    // roscpp subscribes to the clock with its first master only.
-    if (ros::param::param("/use_sim_time", false))
-      subscribers.push_back(node.subscribe<rosgraph_msgs::Clock>(
-          "/clock", 1, [](const rosgraph_msgs::Clock::ConstPtr& m) { ros::Time::setNow(m->clock); }, {},
-          ros::TransportHints().tcpNoDelay()));
     send_map(sent_map);
     using Empty = std_srvs::Empty;
     using Trigger = std_srvs::Trigger;
@@ -180,6 +194,7 @@ void RosLink::look_after_master() {
     return;
   ROS_WARN("the ROS master does not know this node, as after a restart: subscribing and advertising again");
   wires_.reset();
+  if (ros::Time::isSimTime()) hear_clock_again();
   wires_ = std::make_unique<Wires>(handlers_, scan_topics_, map_);
 }
 

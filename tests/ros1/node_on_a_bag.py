@@ -229,7 +229,7 @@ def check_services():
     print("services: save_pose, request_nomotion_update, global_localization, set_map answer")
 
 
-def check_new_master(processes, core, process, port, drive):
+def check_new_master(processes, core, process, port, drive, before):
     """Nothing of the old master is left: the node is heard by others when the recording is played again."""
     processes.end(core)
     processes.start("roscore", "-p", port)
@@ -241,6 +241,7 @@ def check_new_master(processes, core, process, port, drive):
             return False
         return all("/beaconless" in dict(names).get(name, [])
                    for names, name in ((published, "/amcl_pose"), (published, "/tf"), (served, "/global_localization"),
+                                       (subscribed, "/clock"),
                                        *((subscribed, topic) for topic in drive.lasers)))
 
     wait_for("a new roscore", lambda: rosgraph.is_master_online(f"http://127.0.0.1:{port}"))
@@ -249,6 +250,12 @@ def check_new_master(processes, core, process, port, drive):
     echo = processes.start("rostopic", "echo", "-n", "3", "--filter", "m.header.stamp.secs > 0", "/amcl_pose")
     again = processes.start("rosbag", "play", "--clock", "--delay", "3", "--quiet", drive.bag)
     wait_for("poses under the new roscore", lambda: echo.poll() == 0, 30.0)
+    # Diagnostics are stamped by the node's clock: the end of the last pass, unless it hears the new one.
+    clock = subprocess.run(["rostopic", "echo", "-n", "1", "-p", "/diagnostics/header/stamp"], capture_output=True,
+                           text=True, timeout=20, check=True).stdout.split()[-1]
+    begun_ns, ended_ns = min(before), max(before)
+    told_ns = int(clock.split(",")[-1])
+    assert begun_ns - 10**9 < told_ns < ended_ns - 10**9, f"its clock stands at {told_ns}, not in the second pass"
     processes.end(again)
     assert process.poll() is None
     print("master: the node is known to a new one, hears its clock, and tells poses")
@@ -284,7 +291,7 @@ def run(node, program, drive, folder, processes):
     check_refusal(heard, drive.map_frame)
     check_services()
     assert "did you mean ~base_frame_id?" in processes.logs(), "an unknown parameter is passed over in silence"
-    check_new_master(processes, core, process, port, drive)
+    check_new_master(processes, core, process, port, drive, expected)
 
 
 def main():

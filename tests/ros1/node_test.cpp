@@ -27,6 +27,7 @@ class NodeTest : public testing::Test {
   Node& node() {
     if (!node_) {
       node_.emplace(settings, link, [this](const LocalizerConfig& config, const Map&) {
+        if (is_map_refused) return Result<std::unique_ptr<Localizer>>(Error{"map", "no walls", ""});
         auto made = std::make_unique<FakeLocalizer>();
         made->after_start_at = {{.map_from_base = {3.0, 4.0, 0.5}}};
         made->after_start_anywhere = {
@@ -64,6 +65,7 @@ class NodeTest : public testing::Test {
   FakeLink link;
   Settings settings;
   FakeLocalizer* localizer = nullptr;
+  bool is_map_refused = false;
   LocalizerConfig config_seen;
 
  private:
@@ -123,10 +125,49 @@ TEST_F(NodeTest, WaitsForAllItsLasersAndTellsThemApartByTheirFrames) {
   ASSERT_THAT(config_seen.lasers, SizeIs(2));
   EXPECT_EQ(config_seen.lasers[0].frame_id, "front");
   EXPECT_EQ(config_seen.lasers[1].base_from_laser.x_m, -0.3);
-  EXPECT_EQ(localizer->odometry_count, 1U);  // that moment's wheels are told on once
+  EXPECT_EQ(localizer->odometry_count, 1U);      // that moment's wheels are told on once …
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));  // … and so is its tf, which refuses repetitions
   scan(11, "top");
   EXPECT_THAT(link.poses, SizeIs(2));
   EXPECT_THAT(diagnosed(), HasSubstr("scans of \"top\" are passed over: the laser is \"front\", \"rear\""));
+}
+
+TEST_F(NodeTest, SaysWhichLaserHasFallenSilent) {
+  settings.node.scan_topics = "/front /rear";
+  give_map(), give_wheels();
+  link.transforms[{"base_link", "front"}] = link.transforms[{"base_link", "rear"}] =
+      FakeLink::known(0.3, 0.0);
+  scan(10, "front"), scan(10, "rear");
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("no scan for")));
+  for (int i = 0; i < 4; ++i) {
+    link.steady += 1.0;
+    scan(20 + i, "front"), scan(20 + i, "top");
+  }
+  EXPECT_THAT(diagnosed(),
+              testing::AllOf(HasSubstr("rear: no scan for"), testing::Not(HasSubstr("front: no"))));
+}
+
+TEST_F(NodeTest, BeginsAnewOnceWhereAllItsLasersStampsJumpBack) {
+  settings.node.scan_topics = "/front /rear";
+  give_map(), give_wheels();
+  link.transforms[{"base_link", "front"}] = link.transforms[{"base_link", "rear"}] =
+      FakeLink::known(0.3, 0.0);
+  scan(100, "front"), scan(100, "rear"), scan(500, "top");
+  const std::size_t begun = localizer->starts.size();
+  scan(10, "front"), scan(10, "rear"), scan(5, "top");
+  EXPECT_EQ(localizer->starts.size(), begun + 1);
+  EXPECT_THAT(link.poses, SizeIs(4));
+}
+
+TEST_F(NodeTest, TakesAGoodMapAfterOneThatCannotBeUsed) {
+  is_map_refused = true;
+  give_map(), give_laser();
+  scan(10);
+  EXPECT_THAT(link.poses, IsEmpty());
+  is_map_refused = false;
+  node().hear_map({"map", 0.5, 3, 2, {}, {100, 0, 0, 100, 0, 0}});
+  scan(11);
+  EXPECT_THAT(link.poses, SizeIs(1));
 }
 
 TEST_F(NodeTest, DoesNotWaitForeverForALaserThatNobodyPlaces) {
