@@ -34,9 +34,9 @@ struct LaserOnRobot {
 /// Everything that shapes a localizer.
 struct LocalizerConfig {
   std::string method = "walls";
-  Pose2 base_from_laser;  ///< where the laser sits on the robot
+  Pose2 base_from_laser;             ///< where the laser sits on the robot
   std::vector<LaserOnRobot> lasers;  ///< where there are several: then base_from_laser is not asked for
-  bool deskew = true;     ///< see each beam from where the laser was, where the source tells beams' times
+  bool deskew = true;  ///< see each beam from where the laser was, where the source tells beams' times
   WallsConfig walls;
   IcpConfig icp;
   PointFeaturesConfig features;   ///< how the feature methods find features …
