@@ -207,15 +207,17 @@ double RosLink::steady_s() {
 TransformAnswer RosLink::transform(const std::string& target, const std::string& source,
                                    std::int64_t stamp_ns) {
   using Kind = TransformAnswer::Kind;
+  const auto then = [&] { return wires_->buffer.lookupTransform(target, source, ros_time(stamp_ns)); };
   const auto latest = [&] { return wires_->buffer.lookupTransform(target, source, ros::Time(0)); };
   try {
-    const auto found = wires_->buffer.lookupTransform(target, source, ros_time(stamp_ns));
-    return {Kind::known, plain(found.transform), ""};
+    return {Kind::known, plain(then().transform), ""};
   } catch (const tf2::ExtrapolationException& error) {
     // Too new may come yet, too old will not.
     try {
       const bool may_come = latest().header.stamp < ros_time(stamp_ns);
-      return {may_come ? Kind::not_yet : Kind::unknown, {}, error.what()};
+      if (may_come) return {Kind::not_yet, {}, error.what()};
+      // It may just have come, while the error was on its way.
+      return {Kind::known, plain(then().transform), ""};
     } catch (const tf2::TransformException&) {
       return {Kind::unknown, {}, error.what()};
     }
