@@ -110,9 +110,6 @@ class Rosbag2Database::Messages : public RosMessageSource {
   bool is_over_ = false;
 };
 
-void Rosbag2Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
-void Rosbag2Database::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-
 Result<Rosbag2Database> Rosbag2Database::open(const std::string& path) {
   const auto header = read_header(path);
   if (!header) return Error{path, "is cut: it ends within the header of SQLite", "copy it again"};
@@ -128,7 +125,7 @@ Result<Rosbag2Database> Rosbag2Database::open(const std::string& path) {
   sqlite3* raw = nullptr;
   const int status = sqlite3_open_v2(uri_of(path, header->is_wal).c_str(), &raw,
                                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
-  Rosbag2Database database(path, std::unique_ptr<sqlite3, Close>(raw));
+  Rosbag2Database database(path, SqliteHandle(raw));
   if (status != SQLITE_OK) return database.damaged();
   sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
   // What a foreign file defines may not call functions.

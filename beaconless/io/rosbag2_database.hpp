@@ -10,9 +10,7 @@
 #include "beaconless/core/result.hpp"
 #include "beaconless/io/recording.hpp"
 #include "beaconless/io/ros_message.hpp"
-
-struct sqlite3;
-struct sqlite3_stmt;
+#include "beaconless/io/sqlite_handles.hpp"
 
 namespace beaconless::io {
 
@@ -31,13 +29,7 @@ class Rosbag2Database {
                                                             const std::vector<std::string>& topics);
 
  private:
-  struct Close {
-    void operator()(sqlite3* database) const;
-  };
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const;
-  };
-  using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
+  using Statement = SqliteStatement;
   class Messages;
 
   /// A topic as the table has it.
@@ -47,14 +39,14 @@ class Rosbag2Database {
     bool is_cdr = false;
   };
 
-  Rosbag2Database(std::string path, std::unique_ptr<sqlite3, Close> database)
+  Rosbag2Database(std::string path, SqliteHandle database)
       : path_(std::move(path)), database_(std::move(database)) {}
   Result<Statement> prepare(const std::string& sql) const;
   Result<std::vector<Row>> rows() const;
   Error damaged() const;
 
   std::string path_;
-  std::unique_ptr<sqlite3, Close> database_;
+  SqliteHandle database_;
 };
 
 }  // namespace beaconless::io

@@ -20,9 +20,6 @@ std::string rosbag2_qos(bool is_latched) {
          "  liveliness: 1\n  liveliness_lease_duration" + kNever + "  avoid_ros_namespace_conventions: false";
 }
 
-void Rosbag2Writer::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
-void Rosbag2Writer::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-
 Rosbag2Writer::Rosbag2Writer(const std::string& path) {
   std::error_code ignored;
   std::filesystem::remove(path, ignored);

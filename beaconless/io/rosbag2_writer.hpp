@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "beaconless/io/ros_message_sink.hpp"
-
-struct sqlite3;
-struct sqlite3_stmt;
+#include "beaconless/io/sqlite_handles.hpp"
 
 namespace beaconless::io {
 
@@ -44,13 +42,7 @@ class Rosbag2Writer : public RosMessageSink {
   std::int64_t end_ns() const { return end_ns_; }      ///< of the last
 
  private:
-  struct Close {
-    void operator()(sqlite3* database) const;
-  };
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const;
-  };
-  using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
+  using Statement = SqliteStatement;
 
   void run(const char* sql);
   Statement prepare(const char* sql);
@@ -58,7 +50,7 @@ class Rosbag2Writer : public RosMessageSink {
   std::int64_t topic_id(const RosMessageOut& message);
 
   std::string why_;  ///< nothing more is written
-  std::unique_ptr<sqlite3, Close> database_;
+  SqliteHandle database_;
   Statement insert_;
   std::vector<Rosbag2Topic> topics_;
   std::uint64_t messages_ = 0;

@@ -202,11 +202,12 @@ PoseEstimate MultiLaserLocalizer::together(Stamp stamp, const Word& best) {
   for (Word& word : words_) {
     if (word.laser == best.laser) continue;
     const double excess = learn_excess(word, best);
-    word.is_with = agree(best, word) && excess < kMostExcess;
+    const bool is_near = agree(best, word);
+    word.is_with = is_near && excess < kMostExcess;
     is_contradicted = is_contradicted || !word.is_with;
     if (word.is_with)
       all = fused(all, {word.then.pose, excess * word.then.covariance});
-    else if (!agree(best, word) && word.estimate->ok())
+    else if (!is_near && word.estimate->ok())
       is_disputed = is_disputed || standing(*word.estimate) == standing(*best.estimate);
   }
   for (const LaserSays& said : said_) is_contradicted = is_contradicted || is_astray(said.estimate);
@@ -220,23 +221,26 @@ PoseEstimate MultiLaserLocalizer::together(Stamp stamp, const Word& best) {
     estimate.reason = kDisagree;
     estimate.quality = 0.0;
   }
-  // 3. The tightest level of those that deserve trust bounds the fused pose too, by how far it is from
-  // theirs.
+  bound(estimate);
+  return estimate;
+}
+
+/// The tightest level of those that deserve trust bounds the fused pose too, by how far it is from theirs.
+void MultiLaserLocalizer::bound(PoseEstimate& estimate) const {
   estimate.protection_m = PoseEstimate::kUnbounded_m;
   estimate.protection_rad = kPi;
-  if (!estimate.is_trusted()) return estimate;
+  if (!estimate.is_trusted()) return;
   for (const Word& word : words_) {
     if (!word.estimate->is_trusted() || !word.is_with) continue;
     const Eigen::Matrix3d carried = word.then.covariance - word.estimate->covariance;
     const double carried_m = kCarried_sigmas * std::sqrt(std::max(0.0, carried(0, 0) + carried(1, 1)));
     const double carried_rad = kCarried_sigmas * std::sqrt(std::max(0.0, carried(2, 2)));
-    const double off_m = distance_m(all.pose, word.then.pose);
-    const double off_rad = heading_difference_rad(all.pose, word.then.pose);
+    const double off_m = distance_m(estimate.map_from_base, word.then.pose);
+    const double off_rad = heading_difference_rad(estimate.map_from_base, word.then.pose);
     estimate.protection_m = std::min(estimate.protection_m, word.estimate->protection_m + carried_m + off_m);
     estimate.protection_rad =
         std::min(estimate.protection_rad, word.estimate->protection_rad + carried_rad + off_rad);
   }
-  return estimate;
 }
 
 }  // namespace beaconless

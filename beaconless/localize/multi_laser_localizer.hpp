@@ -76,6 +76,7 @@ class MultiLaserLocalizer final : public Localizer {
   void gather_words(Stamp stamp, std::size_t but_of);
   double learn_excess(const Word& word, const Word& best);
   bool agree(const Word& a, const Word& b) const;
+  void bound(PoseEstimate& estimate) const;
   PoseEstimate together(Stamp stamp, const Word& best);
 
   double slack_m_;  // by how much two lasers may be off, each by another piece of the map

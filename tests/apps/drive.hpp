@@ -5,14 +5,17 @@
 
 namespace beaconless {
 
+/// test::niche_room() as a file.
+inline constexpr const char* kNicheRoom =
+    "walls:\n"
+    "  - [[0, 0], [6, 0], [6, 2], [7.5, 2], [7.5, 3.2], [6, 3.2], [6, 5], [0, 5], [0, 0]]\n"
+    "  - [[2.0, 3.4], [2.5, 3.4], [2.5, 3.9], [2.0, 3.9], [2.0, 3.4]]\n";
+
 /// A test with a second of driving through a room without symmetry: 40 scans, the laser 0.7 m ahead.
 class Drive : public Program {
  protected:
   void SetUp() override {
-    folder.write("room.yaml",
-                 "walls:\n"
-                 "  - [[0, 0], [6, 0], [6, 2], [7.5, 2], [7.5, 3.2], [6, 3.2], [6, 5], [0, 5], [0, 0]]\n"
-                 "  - [[2.0, 3.4], [2.5, 3.4], [2.5, 3.9], [2.0, 3.9], [2.0, 3.4]]\n");
+    folder.write("room.yaml", kNicheRoom);
     folder.write("elsewhere.yaml", "walls:\n  - [[50, 50], [53, 50], [53, 54], [50, 54], [50, 50]]\n");
     const std::string scenario = folder.write(
         "drive.yaml",

@@ -7,7 +7,7 @@
 #include "beaconless/io/tum.hpp"
 #include "beaconless/sim/scenario.hpp"
 
-#include "tests/apps/program.hpp"
+#include "tests/apps/drive.hpp"
 #include "tests/support/rooms.hpp"
 
 namespace beaconless {
@@ -19,10 +19,7 @@ using testing::HasSubstr;
 class SeveralLasers : public Program {
  protected:
   void SetUp() override {
-    folder.write("room.yaml",
-                 "walls:\n"
-                 "  - [[0, 0], [6, 0], [6, 2], [7.5, 2], [7.5, 3.2], [6, 3.2], [6, 5], [0, 5], [0, 0]]\n"
-                 "  - [[2.0, 3.4], [2.5, 3.4], [2.5, 3.9], [2.0, 3.9], [2.0, 3.4]]\n");
+    folder.write("room.yaml", kNicheRoom);
     write_drive(drive(), "rear");
   }
 
