@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bridges/ros1/node.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "bridges/ros1/grid_of_message.hpp"
@@ -22,20 +24,24 @@ Node::Node(const Settings& settings, Link& link, Localization::Maker maker)
       link_(link),
       localization_(settings.localizer, std::move(maker)),
       memory_(settings.node.pose_file),
+      tf_rivals_(config_.global_frame_id, config_.odom_frame_id, config_.base_frame_id),
       begun_s_(link.steady_s()) {
   path_.frame_id = config_.global_frame_id;
 }
 
 Handlers Node::handlers() {
-  return {.on_scan = [this](const ScanMessage& scan) { hear_scan(scan); },
-          .on_initial_pose = [this](const PoseMessage& pose) { hear_initial_pose(pose); },
-          .on_map = [this](const GridMessage& grid) { hear_map(grid); },
-          .on_set_map = [this](const GridMessage& grid,
-                               const PoseMessage& pose) { return serve_set_map(grid, pose); },
-          .on_global_localization = [this] { return serve_global_localization(); },
-          .on_request_nomotion_update = [this] { return serve_nomotion_update(); },
-          .on_save_pose = [this] { return serve_save_pose(); },
-          .on_tick = [this] { tick(); }};
+  return {
+      .on_scan = [this](const ScanMessage& scan) { hear_scan(scan); },
+      .on_initial_pose = [this](const PoseMessage& pose) { hear_initial_pose(pose); },
+      .on_map = [this](const GridMessage& grid) { hear_map(grid); },
+      .on_transform_of_other = [this](const TransformMessage& told, const std::string& teller,
+                                      bool is_static) { hear_transform_of_other(told, teller, is_static); },
+      .on_set_map = [this](const GridMessage& grid,
+                           const PoseMessage& pose) { return serve_set_map(grid, pose); },
+      .on_global_localization = [this] { return serve_global_localization(); },
+      .on_request_nomotion_update = [this] { return serve_nomotion_update(); },
+      .on_save_pose = [this] { return serve_save_pose(); },
+      .on_tick = [this] { tick(); }};
 }
 
 void Node::complain(const std::string& subject, Level level, const std::string& words, double lasts_s) {
@@ -43,9 +49,10 @@ void Node::complain(const std::string& subject, Level level, const std::string& 
     link_.log(level, subject + ": " + words);
 }
 
-// The start of the parameters, the one that was remembered, or none: by the first map, unless somebody was
-// quicker.
+// What was told before the first map, the start of the parameters, the one that was remembered, or none.
 void Node::start() {
+  if (early_pose_) hear_initial_pose(*std::exchange(early_pose_, std::nullopt));
+  if (localization_.has_start()) return;
   if (has_initial_pose_) {
     PoseMessage pose{0,
                      config_.global_frame_id,
@@ -62,6 +69,7 @@ void Node::start() {
     link_.log(Level::ok, fmt::format("starting where the robot was when {} was written", config_.pose_file));
     localization_.start_at(**remembered);
   } else if (config_.start == "auto") {
+    link_.log(Level::ok, "looking for the robot on the whole map");
     localization_.start_anywhere();
   }
 }
@@ -79,31 +87,43 @@ Result<Done> Node::use_map(Map map, const io::MapIdentity& identity) {
   if (auto set = localization_.set_map(std::make_shared<const Map>(std::move(map))); !set) return set.error();
   complaints_.clear("map");
   memory_.set_map(identity);
-  if (is_first && !localization_.has_start()) start();
+  link_.log(Level::ok, "map: " + words_of_map(*localization_.map()));
+  if (is_first && (early_pose_ || !localization_.has_start())) start();
   return Done{};
 }
 
-Result<Done> Node::take_grid(const GridMessage& message) {
-  auto grid = grid_of_message(message);
-  if (!grid) return grid.error();
-  if (message.frame_id != config_.global_frame_id && message.frame_id != "/" + config_.global_frame_id)
-    link_.log(Level::warn, "map: its frame is \"" + message.frame_id + "\"; poses are told in \"" +
+Result<Done> Node::take_grid(OccupancyGrid grid, const std::string& frame) {
+  if (frame != config_.global_frame_id && frame != "/" + config_.global_frame_id)
+    link_.log(Level::warn, "map: its frame is \"" + frame + "\"; poses are told in \"" +
                                config_.global_frame_id + "\" (global_frame_id)");
   // A map server that was started again brings the same map.
-  if (const Map* known = localization_.map(); known != nullptr && *known == Map(*grid)) return Done{};
-  const auto identity = identify_grid(*grid);
-  return config_.map_file.empty() ? use_map(*std::move(grid), identity) : set_map(*std::move(grid), identity);
+  if (const Map* known = localization_.map(); known != nullptr && *known == Map(grid)) return Done{};
+  const auto identity = identify_grid(grid);
+  return config_.map_file.empty() ? use_map(std::move(grid), identity) : set_map(std::move(grid), identity);
 }
 
 void Node::hear_map(const GridMessage& grid) {
   if (!config_.map_file.empty() || (config_.first_map_only && localization_.has_map())) return;
-  if (auto taken = take_grid(grid); !taken) complain("map", Level::error, to_string(taken.error()));
+  auto taken = grid_of_message(grid);
+  const Result<Done> done = taken ? take_grid(*std::move(taken), grid.frame_id) : taken.error();
+  if (!done) complain("map", Level::error, to_string(done.error()));
+}
+
+void Node::hear_transform_of_other(const TransformMessage& told, const std::string& teller, bool is_static) {
+  tf_rivals_.hear(told, teller, is_static, link_.steady_s());
 }
 
 void Node::hear_initial_pose(const PoseMessage& pose) {
+  const auto refuse = [this](const Error& why) {
+    complain("initialpose", Level::warn, "refused: " + to_string(why), kRemember_s);
+  };
   const auto guess = start_guess_of(pose, config_.global_frame_id);
-  if (!guess)
-    return complain("initialpose", Level::warn, "refused: " + to_string(guess.error()), kRemember_s);
+  if (!guess) return refuse(guess.error());
+  if (!localization_.has_map()) {
+    early_pose_ = pose;
+    return;
+  }
+  if (auto on_map = check_on_map(*guess, *localization_.map()); !on_map) return refuse(on_map.error());
   complaints_.clear("initialpose");
   const Pose2& at = guess->map_from_base;
   link_.log(Level::ok, fmt::format("{} x {:.3f} m, y {:.3f} m, {:.1f} degrees",
@@ -119,12 +139,18 @@ void Node::hear_initial_pose(const PoseMessage& pose) {
 Answer Node::serve_set_map(const GridMessage& grid, const PoseMessage& pose) {
   const auto guess = start_guess_of(pose, config_.global_frame_id);
   if (!guess) return {false, to_string(guess.error())};
-  if (auto taken = take_grid(grid); !taken) return {false, to_string(taken.error())};
+  auto map = grid_of_message(grid);
+  if (!map) return {false, to_string(map.error())};
+  if (auto on_map = check_on_map(*guess, *map); !on_map) return {false, to_string(on_map.error())};
+  if (auto taken = take_grid(*std::move(map), grid.frame_id); !taken)
+    return {false, to_string(taken.error())};
   hear_initial_pose(pose);
   return {true, ""};
 }
 
 Answer Node::serve_global_localization() {
+  early_pose_.reset();
+  link_.log(Level::ok, "looking for the robot on the whole map");
   localization_.start_anywhere();
   return {true, "looking on the whole map"};
 }

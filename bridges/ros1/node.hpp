@@ -14,6 +14,7 @@
 #include "bridges/ros1/pose_memory.hpp"
 #include "bridges/ros1/settings.hpp"
 #include "bridges/ros1/stamp_watch.hpp"
+#include "bridges/ros1/tf_rivals.hpp"
 
 namespace beaconless::ros1 {
 
@@ -35,6 +36,7 @@ class Node {
   void hear_scan(const ScanMessage& scan);
   void hear_initial_pose(const PoseMessage& pose);
   void hear_map(const GridMessage& grid);
+  void hear_transform_of_other(const TransformMessage& told, const std::string& teller, bool is_static);
   Answer serve_set_map(const GridMessage& grid, const PoseMessage& pose);
   Answer serve_global_localization();
   Answer serve_nomotion_update() const;
@@ -75,9 +77,10 @@ class Node {
   void tell(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate, const Scan& scan,
             const std::optional<Pose2>& odom_from_base);
   void tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base);
+  void log_change(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate);
   void grow_path(const PoseEstimate& estimate);
   Result<Done> use_map(Map map, const io::MapIdentity& identity);
-  Result<Done> take_grid(const GridMessage& message);
+  Result<Done> take_grid(OccupancyGrid grid, const std::string& frame);
   void complain(const std::string& subject, Level level, const std::string& words,
                 double lasts_s = Complaints::kForGood);
 
@@ -88,6 +91,8 @@ class Node {
   Localization localization_;
   PoseMemory memory_;
   Complaints complaints_;
+  TfRivals tf_rivals_;
+  std::optional<PoseMessage> early_pose_;     // heard before there was a map
   std::map<std::string, StampWatch> stamps_;  // by the frames of the scans
   std::deque<Waiting> waiting_;
   std::map<std::string, Laser> lasers_;  // by the frames of their scans

@@ -17,6 +17,8 @@ constexpr double kTilted_rad = radians(3.0);
 constexpr double kPathStep_m = 0.05;
 constexpr std::size_t kLongestPath = 5000;
 
+bool is_told(const PoseEstimate& estimate) { return estimate.ok() || estimate.status == Status::degraded; }
+
 }  // namespace
 
 void Node::hear_scan(const ScanMessage& scan) {
@@ -223,8 +225,9 @@ void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& e
         beams_message(before, estimate, scan, localization_.base_from_laser(scan.frame_id()), frame));
   if (auto saved = memory_.update(estimate); !saved)
     complain("pose_file", Level::warn, to_string(saved.error()), kRemember_s);
+  log_change(before, estimate);
   // A pose that is not known is not told: whoever drives by it stops.
-  if (!estimate.ok() && estimate.status != Status::degraded) return;
+  if (!is_told(estimate)) return;
   link_.send_pose(pose_message(estimate, frame));
   tell_tf(estimate, odom_from_base);
   grow_path(estimate);
@@ -244,8 +247,23 @@ void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odo
         !config_.odom_frame_id.empty() && seconds_between(*first_scan_, estimate.stamp) < kWheelsMayCome_s;
     if (has_seen_wheels_ || may_come) return;
   }
+  const double now_s = link_.steady_s();
+  if (const auto loop = tf_rivals_.loop(now_s)) return complain("tf", Level::error, *loop, kRemember_s);
+  if (const auto rival = tf_rivals_.beside(message.child_frame_id, now_s))
+    complain("tf", Level::error, *rival, kRemember_s);
   link_.send_transform(message);
   last_tf_ns_ = estimate.stamp.ns;
+}
+
+// What the log is looked through for: when the robot was found, when it was lost and why.
+void Node::log_change(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate) {
+  const bool was_told = before && is_told(*before);
+  const Pose2& at = estimate.map_from_base;
+  if (is_told(estimate) && !was_told)
+    link_.log(Level::ok, fmt::format("{} at x {:.3f} m, y {:.3f} m, {:.1f} degrees",
+                                     to_string(estimate.status), at.x_m, at.y_m, degrees(at.theta_rad)));
+  if (!is_told(estimate) && was_told)
+    link_.log(Level::warn, fmt::format("{}: {}", to_string(estimate.status), estimate.reason));
 }
 
 void Node::grow_path(const PoseEstimate& estimate) {

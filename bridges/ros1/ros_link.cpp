@@ -2,7 +2,9 @@
 #include "bridges/ros1/ros_link.hpp"
 
 #include <chrono>
+#include <clocale>
 #include <cstdio>
+#include <utility>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/SetMap.h>
@@ -10,6 +12,7 @@
 #include <ros/xmlrpc_manager.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -81,6 +84,18 @@ void hear_clock_again() {
   manager->releaseXMLRPCClient(own);
 }
 
+// With the name of who tells it, which a listener of tf does not pass on.
+ros::Subscriber hear_tf_of_others(ros::NodeHandle& node, const std::string& topic, bool is_static,
+                                  const Handlers& on) {
+  using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
+  const boost::function<void(const Event&)> hear = [&on, is_static](const Event& event) {
+    if (event.getPublisherName() == ros::this_node::getName()) return;
+    for (const auto& t : event.getConstMessage()->transforms)
+      on.on_transform_of_other(plain(t), event.getPublisherName(), is_static);
+  };
+  return node.subscribe<tf2_msgs::TFMessage, const Event&>(topic, 100, hear);
+}
+
 // Services without words of their own say what went wrong by failing, and in the log.
 bool told(const Answer& answer) {
   if (!answer.is_done) ROS_WARN("%s", answer.words.c_str());
@@ -112,6 +127,8 @@ struct RosLink::Wires {
       subscribers.push_back(node.subscribe<sensor_msgs::LaserScan>(
           topic, kScansWaiting, [&on](const sensor_msgs::LaserScan::ConstPtr& m) { on.on_scan(plain(*m)); },
           {}, ros::TransportHints().tcpNoDelay()));
+    for (const auto& [topic, is_static] : {std::pair("/tf", false), std::pair("/tf_static", true)})
+      subscribers.push_back(hear_tf_of_others(node, topic, is_static, on));
     send_map(sent_map);
     using Empty = std_srvs::Empty;
     using Trigger = std_srvs::Trigger;
@@ -149,6 +166,8 @@ struct RosLink::Wires {
 };
 
 RosLink::RosLink(int& argc, char** argv, const std::string& name) {
+  // The log is written in the characters of the locale, and words hold others than ASCII.
+  std::setlocale(LC_CTYPE, "C.UTF-8");
   ros::init(argc, argv, name);
   ros::start();
 }

@@ -59,6 +59,10 @@ Transform plain(const geometry_msgs::Transform& t) {
           t.rotation.y,    t.rotation.z,    t.rotation.w};
 }
 
+TransformMessage plain(const geometry_msgs::TransformStamped& t) {
+  return {ns_of(t.header.stamp), t.header.frame_id, t.child_frame_id, plain(t.transform)};
+}
+
 geometry_msgs::PoseWithCovarianceStamped ros_pose(const PoseMessage& pose) {
   auto message = headed<geometry_msgs::PoseWithCovarianceStamped>(pose.stamp_ns, pose.frame_id);
   message.pose.pose = ros_pose_of(pose.pose);

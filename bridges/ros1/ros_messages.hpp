@@ -20,6 +20,7 @@ ScanMessage plain(const sensor_msgs::LaserScan& scan);
 PoseMessage plain(const geometry_msgs::PoseWithCovarianceStamped& pose);
 GridMessage plain(const nav_msgs::OccupancyGrid& grid);
 Transform plain(const geometry_msgs::Transform& transform);
+TransformMessage plain(const geometry_msgs::TransformStamped& transform);
 
 geometry_msgs::PoseWithCovarianceStamped ros_pose(const PoseMessage& pose);
 geometry_msgs::TransformStamped ros_transform(const TransformMessage& transform);

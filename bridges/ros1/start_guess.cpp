@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "beaconless/io/quaternion_yaw.hpp"
+#include "beaconless/map/wall_box.hpp"
 
 namespace beaconless::ros1 {
 namespace {
@@ -16,6 +17,7 @@ constexpr double kStartAt_rad = kPi / 4.0;
 constexpr double kWidest_m = 100.0;
 constexpr double kSearched_sigma = 3.0;
 constexpr double kLeastRadius_m = 1.0;
+constexpr double kFurthestSight_m = 100.0;
 
 Error refused(std::string what, std::string remedy) {
   return {"initialpose", std::move(what), std::move(remedy)};
@@ -64,6 +66,19 @@ Result<StartGuess> start_guess_of(const PoseMessage& pose, const std::string& gl
   if (sigma_m > kStartAt_m || aa > kStartAt_rad * kStartAt_rad)
     guess.within = SearchRegion{{at.x_m, at.y_m}, std::max(kSearched_sigma * sigma_m, kLeastRadius_m)};
   return guess;
+}
+
+Result<Done> check_on_map(const StartGuess& guess, const Map& map) {
+  const Eigen::AlignedBox2d box = wall_box(map);
+  const Pose2& at = guess.map_from_base;
+  const double off_m = box.isEmpty() ? 0.0 : box.exteriorDistance(Eigen::Vector2d(at.x_m, at.y_m));
+  if (off_m <= (guess.within ? guess.within->radius_m : kFurthestSight_m)) return Done{};
+  return refused(
+      fmt::format(
+          "x {:.1f} m, y {:.1f} m lies {:.0f} m off the map, whose walls are between {:.1f}, {:.1f} and "
+          "{:.1f}, {:.1f}",
+          at.x_m, at.y_m, off_m, box.min().x(), box.min().y(), box.max().x(), box.max().y()),
+      "give a place on the map");
 }
 
 }  // namespace beaconless::ros1

@@ -87,6 +87,13 @@ PointsMessage beams_message(const std::optional<PoseEstimate>& before, const Pos
   return message;
 }
 
+std::string words_of_map(const Map& map) {
+  if (const auto* grid = std::get_if<OccupancyGrid>(&map))
+    return fmt::format("{} x {} cells of {:.3g} m", grid->width_cells, grid->height_cells,
+                       grid->resolution_m);
+  return fmt::format("a floor plan, {} lines", std::get<FloorPlan>(map).walls.size());
+}
+
 DiagnosticMessage diagnostic_message(const std::optional<PoseEstimate>& estimate,
                                      const std::map<std::string, Complaints::Complaint>& complaints) {
   DiagnosticMessage message;

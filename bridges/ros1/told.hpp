@@ -5,6 +5,7 @@
 #include <string>
 
 #include "beaconless/localize/localizer.hpp"
+#include "beaconless/map/map.hpp"
 
 #include "bridges/ros1/complaints.hpp"
 #include "bridges/ros1/messages.hpp"
@@ -29,6 +30,9 @@ PosesMessage places_message(const PoseEstimate& estimate, std::span<const PoseCa
 /// it is within a second.
 PointsMessage beams_message(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate,
                             const Scan& scan, const Pose2& base_from_laser, const std::string& frame);
+
+/// What kind of map it is, and how large.
+std::string words_of_map(const Map& map);
 
 /// How it goes, worst first: the complaints, and what the last estimate says.
 DiagnosticMessage diagnostic_message(const std::optional<PoseEstimate>& estimate,

@@ -232,9 +232,13 @@ def check_services():
     print("services: save_pose, request_nomotion_update, global_localization, set_map answer")
 
 
-def check_new_master(processes, core, process, port, drive, before):
-    """Nothing of the old master is left: the node is heard by others when the recording is played again."""
+def check_new_master(processes, core, process, port, drive, heard, before):
+    """The master goes while the node is at work; by a new one it is heard by others when the recording is played again."""
+    heard.poses.clear()
+    interrupted = processes.start("rosbag", "play", "--clock", "--delay", "1", "--quiet", drive.bag)
+    wait_for("poses of the second pass", lambda: heard.poses)
     processes.end(core)
+    assert interrupted.poll() is None and process.poll() is None
     processes.start("roscore", "-p", port)
 
     def is_known():
@@ -250,15 +254,16 @@ def check_new_master(processes, core, process, port, drive, before):
     wait_for("a new roscore", lambda: rosgraph.is_master_online(f"http://127.0.0.1:{port}"))
     rosgraph.Master("/driver").setParam("/use_sim_time", True)
     wait_for("the node to make itself known to a new roscore", is_known)
+    processes.end(interrupted)  # a player never asks for a new master
     echo = processes.start("rostopic", "echo", "-n", "3", "--filter", "m.header.stamp.secs > 0", "/amcl_pose")
     again = processes.start("rosbag", "play", "--clock", "--delay", "3", "--quiet", drive.bag)
     wait_for("poses under the new roscore", lambda: echo.poll() == 0, 30.0)
-    # Diagnostics are stamped by the node's clock: the end of the last pass, unless it hears the new one.
-    clock = subprocess.run(["rostopic", "echo", "-n", "1", "-p", "/diagnostics/header/stamp"], capture_output=True,
-                           text=True, timeout=20, check=True).stdout.split()[-1]
-    begun_ns, ended_ns = min(before), max(before)
-    told_ns = int(clock.split(",")[-1])
-    assert begun_ns - 10**9 < told_ns < ended_ns - 10**9, f"its clock stands at {told_ns}, not in the second pass"
+    # Diagnostics are stamped by the node's clock: where the second pass broke off, unless it hears the new one.
+    told = subprocess.run(["rostopic", "echo", "-n", "3", "-p", "/diagnostics/header/stamp"], capture_output=True,
+                          text=True, timeout=20, check=True).stdout.split()
+    clock = [int(line.split(",")[-1]) for line in told if line[0].isdigit()]
+    assert len(clock) == 3 and clock[0] < clock[1] < clock[2], f"its clock stands at {clock}"
+    assert min(before) - 10**9 < clock[2] < max(before), f"its clock stands at {clock}, not in the third pass"
     processes.end(again)
     assert process.poll() is None
     print("master: the node is known to a new one, hears its clock, and tells poses")
@@ -294,7 +299,7 @@ def run(node, program, drive, folder, processes):
     check_refusal(heard, drive.map_frame)
     check_services()
     assert processes.said("did you mean ~base_frame_id?"), "an unknown parameter is passed over in silence"
-    check_new_master(processes, core, process, port, drive, expected)
+    check_new_master(processes, core, process, port, drive, heard, expected)
 
 
 def main():

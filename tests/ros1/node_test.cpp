@@ -229,6 +229,70 @@ TEST_F(NodeTest, RefusesABadInitialPoseAndGoesOn) {
   EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("refused")));
 }
 
+TEST_F(NodeTest, RefusesAnInitialPoseOffTheMap) {
+  settings.has_initial_pose = false;
+  settings.node.start = "wait";
+  node().hear_initial_pose({0, "map", {480.0, 0.0}, {}});  // before there is one
+  give_map(), give_laser();
+  EXPECT_THAT(diagnosed(), HasSubstr("lies 479 m off the map"));
+  scan(10);
+  EXPECT_THAT(localizer->starts, IsEmpty());
+  node().hear_initial_pose({0, "map", {1.0, 0.0}, {}});
+  EXPECT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_FALSE(node().serve_set_map({"map", 0.5, 1, 1, {}, {100}}, {0, "map", {480.0, 0.0}, {}}).is_done);
+  EXPECT_THAT(localizer->starts, SizeIs(1));
+}
+
+TEST_F(NodeTest, SendsNoTransformThatWouldCloseALoop) {
+  give_map(), give_laser(), give_wheels();
+  const auto hear = [&](const char* parent, const char* child) {
+    node().hear_transform_of_other({0, parent, child, {}}, "/player", false);
+  };
+  hear("base_link", "laser"), hear("odom", "base_link"), hear("world", "map");
+  scan(10);
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("/player")));
+  hear("/odom", "/map");
+  scan(11);
+  EXPECT_THAT(link.poses, SizeIs(2));
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_THAT(diagnosed(), HasSubstr("/player tells \"map\" below \"odom\""));
+  link.steady += 11.0;  // it has ended
+  scan(12);
+  EXPECT_THAT(link.sent_transforms, SizeIs(2));
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("/player")));
+  node().hear_transform_of_other({0, "odom", "map", {}}, "/fixed", true);
+  link.steady += 1000.0;
+  scan(13);
+  EXPECT_THAT(link.sent_transforms, SizeIs(2));
+}
+
+TEST_F(NodeTest, SaysWhoTellsItsTransformAsWell) {
+  give_map(), give_laser(), give_wheels();
+  node().hear_transform_of_other({0, "map", "odom", {}}, "/amcl", false);
+  scan(10);
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_THAT(diagnosed(), HasSubstr("/amcl tells \"odom\" below \"map\""));
+}
+
+TEST_F(NodeTest, NamesTheFrameThatTheWheelsMayHave) {
+  give_map(), give_laser();
+  node().hear_transform_of_other({0, "odom_combined", "base_link", {}}, "/ekf", false);
+  scan(10), scan(21);
+  EXPECT_THAT(link.sent_transforms, SizeIs(1));
+  EXPECT_THAT(diagnosed(), HasSubstr("set odom_frame_id to \"odom_combined\""));
+}
+
+TEST_F(NodeTest, LogsTheMapAndWhenTheRobotIsFoundAndLost) {
+  give_map(), give_laser(), give_wheels();
+  scan(10), scan(11);
+  EXPECT_THAT(link.logs, testing::ElementsAre("map: 2 x 2 cells of 0.5 m", HasSubstr("starting at"),
+                                              "ok at x 3.000 m, y 4.000 m, 28.6 degrees"));
+  node().serve_global_localization();
+  scan(12), scan(13);
+  EXPECT_EQ(link.logs.back(), "looking for the robot on the whole map");
+}
+
 TEST_F(NodeTest, SearchesWhenItIsAskedTo) {
   give_map(), give_laser(), give_wheels();
   scan(10);

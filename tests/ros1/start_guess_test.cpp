@@ -75,6 +75,30 @@ TEST(StartGuess, ThatIsNoneIsRefusedWithAReason) {
   }
 }
 
+TEST(StartGuess, WithoutCovarianceIsAPose) {
+  PoseMessage pose = by_rviz();
+  pose.covariance = {};
+  const auto guess = start_guess_of(pose, "map");
+  ASSERT_TRUE(guess) << guess.error();
+  EXPECT_FALSE(guess->within);
+}
+
+TEST(StartGuess, OffTheMapIsRefused) {
+  const Map room = FloorPlan{.walls = {{{2.0, 1.0}, {6.0, 1.0}, {6.0, 5.0}}}};
+  EXPECT_TRUE(check_on_map({{4.0, 3.0, 0.0}, std::nullopt}, room));
+  EXPECT_TRUE(check_on_map({{105.0, 3.0, 0.0}, std::nullopt}, room))
+      << "a laser may see the walls from there";
+  const auto off = check_on_map({{480.0, 3.0, 0.0}, std::nullopt}, room);
+  ASSERT_FALSE(off);
+  EXPECT_THAT(to_string(off.error()),
+              HasSubstr("lies 474 m off the map, whose walls are between 2.0, 1.0 and 6.0, 5.0"));
+  const auto region = [](double radius_m) {
+    return StartGuess{{16.0, 3.0, 0.0}, SearchRegion{{16.0, 3.0}, radius_m}};
+  };
+  EXPECT_FALSE(check_on_map(region(9.0), room));
+  EXPECT_TRUE(check_on_map(region(11.0), room));
+}
+
 TEST(StartGuess, TakesAFrameWithASlash) {
   PoseMessage pose = by_rviz();
   pose.frame_id = "/map";
