@@ -7,6 +7,7 @@
 #include "beaconless/io/recording_writer.hpp"
 
 #include "commands.hpp"
+#include "laser_set.hpp"
 #include "words.hpp"
 
 namespace beaconless::cli {
@@ -15,8 +16,16 @@ namespace {
 struct ConvertWords {
   std::string from;
   std::string to;
+  std::vector<std::string> topics;
   ScanWords scan;
   std::string compression;
+};
+
+/// What is copied, which scans of it, and how.
+struct Source {
+  io::Recording recording;
+  io::ScanSelection scans;
+  io::RecordingWriterOptions options;
 };
 
 /// What went from one file into the other.
@@ -58,27 +67,54 @@ Copied copy(const io::Recording& from, const io::ScanSelection& scans, io::Recor
   return copied;
 }
 
+Result<Source> open_one(const ConvertWords& words, const io::ScanSelection& scans, ProblemLog& problems) {
+  ScanWords of_one = words.scan;
+  if (!words.topics.empty()) of_one.topic = words.topics.front();
+  auto from = open_recording(words.from, of_one, problems);
+  if (!from) return from.error();
+  io::RecordingWriterOptions options{
+      .scan_topic = from->scan_topic(), .compression = words.compression, .laser_place = from->laser_place()};
+  return Source{*std::move(from), scans, std::move(options)};
+}
+
+Result<Source> open_several(const ConvertWords& words, const io::ScanSelection& scans, ProblemLog& problems) {
+  auto lasers = open_each(words.from, words.scan, words.topics, problems);
+  if (!lasers) return lasers.error();
+  io::RecordingWriterOptions options{.compression = words.compression};
+  for (const OneLaser& laser : *lasers)
+    options.lasers[laser.frame_id] = {laser.recording.scan_topic(), laser.recording.laser_place()};
+  return Source{merged(*std::move(lasers), scans), {}, std::move(options)};
+}
+
+void tell_left_out(const Console& console, const io::RecordingWriter& to) {
+  for (const auto& [source, count] : to.left_out())
+    console.warn(
+        fmt::format("{} readings of {} are left out: a CARMEN log has room for one source of poses and "
+                    "one of odometry",
+                    count, source));
+}
+
 int convert(const Console& console, const ConvertWords& words) {
   const auto scans = words.scan.selection();
   if (!scans) return console.fail(scans.error(), exit_usage);
-  io::RecordingWriterOptions options{.compression = words.compression};
+  const io::RecordingWriterOptions options{.compression = words.compression};
   if (const auto possible = io::can_write_recording(words.to, options); !possible)
     return console.fail(possible.error(), exit_usage);
   ProblemLog problems;
   problems.listening = false;
-  const auto from = open_recording(words.from, words.scan, problems);
+  const auto from =
+      words.topics.size() > 1 ? open_several(words, *scans, problems) : open_one(words, *scans, problems);
   if (!from) return console.fail(from.error());
   std::error_code ignored;
   if (std::filesystem::equivalent(words.from, words.to, ignored))
     return console.fail({words.to, "is the recording itself", "give the copy another name"}, exit_usage);
-  options.scan_topic = from->scan_topic();
-  options.laser_place = from->laser_place();
-  auto to = io::make_recording_writer(words.to, options);
+  auto to = io::make_recording_writer(words.to, from->options);
   if (!to) return console.fail(to.error());
 
   problems.listening = true;
-  const Copied copied = copy(*from, *scans, *to.value());
+  const Copied copied = copy(from->recording, from->scans, *to.value());
   problems.report(console);
+  tell_left_out(console, *to.value());
   if (auto written = to.value()->finish(); !written) return console.fail(written.error());
   const std::uint64_t bytes = bytes_of(words.to);
   console.say(fmt::format("{}: {} scans, {} odometry readings, {} poses, {:.1f} MB", words.to, copied.scans,
@@ -104,7 +140,10 @@ void add_convert(CLI::App& app, Console& console, int& exit_code) {
           "The copy; its name decides: .mcap, .db3 or folder/ (ROS 2 bag), .bag (ROS 1 bag), .log or "
           ".log.gz (CARMEN)")
       ->required();
-  command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
+  command
+      ->add_option("--topic", words->topics,
+                   "Which scans: a topic of a bag, a keyword of a log; of several lasers one topic each")
+      ->allow_extra_args(false);
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--compression", words->compression,
                       "How its chunks are packed: MCAP zstd (default), lz4, none; ROS 1 bag lz4 (default), "

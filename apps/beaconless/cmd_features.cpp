@@ -21,7 +21,7 @@ void add_features(CLI::App& app, Console& console, int& exit_code) {
   auto words = std::make_shared<FeaturesWords>();
   command
       ->add_option("recording", words->recording,
-                   "The recording: MCAP, ROS 1 bag, CARMEN log, rostopic echo text")
+                   "The recording: MCAP, ROS 1 or 2 bag, CARMEN log, text of rostopic or ros2 topic echo")
       ->required();
   command
       ->add_option("--detector", words->detectors,

@@ -6,6 +6,7 @@
 
 #include "beaconless/io/inspect.hpp"
 #include "beaconless/io/map_io.hpp"
+#include "beaconless/io/topic_choice.hpp"
 
 #include "commands.hpp"
 #include "laser_words.hpp"
@@ -149,20 +150,26 @@ int info(const Console& console, const InfoWords& words) {
   ProblemLog problems;
   const auto summary = summary_of(words, problems);
   if (!summary) return console.fail(summary.error());
+  problems.report(console);
   say_recording(console, *summary);
   if (summary->scan_topic.empty() && summary->scans == 0)
     console.say("no scans were read; where there are several topics with scans, choose one with --topic");
-  console.result(to_json(*summary));
+  nlohmann::json told = to_json(*summary);
+  told["problems"] = problems.lines();
+  console.result(told);
   return exit_good;
 }
 
-int doctor(const Console& console, const InfoWords& words) {
-  if (is_map(words.path)) return map_info(console, words.path);
-  ProblemLog problems;
-  const auto summary = summary_of(words, problems);
-  if (!summary) return console.fail(summary.error());
-  problems.report(console);
-  const auto findings = io::diagnose(*summary);
+/// The scan topics of a recording of which none was chosen, because there are several.
+std::vector<std::string> topics_to_choose_from(const io::Recording& recording) {
+  std::vector<std::string> topics;
+  if (!recording.scan_topic().empty()) return topics;
+  for (const io::Topic& topic : recording.topics())
+    if (io::is_scan_topic(topic)) topics.push_back(topic.name);
+  return topics;
+}
+
+nlohmann::json say_findings(const Console& console, const std::vector<io::Finding>& findings) {
   nlohmann::json list = nlohmann::json::array();
   for (const io::Finding& finding : findings) {
     const bool grave = finding.weight == io::Finding::Weight::warning;
@@ -171,8 +178,39 @@ int doctor(const Console& console, const InfoWords& words) {
     list.push_back(
         {{"weight", grave ? "warning" : "note"}, {"what", finding.what}, {"remedy", finding.remedy}});
   }
+  return list;
+}
+
+/// The findings of one topic of scans.
+Result<nlohmann::json> examine(const Console& console, const InfoWords& words) {
+  ProblemLog problems;
+  const auto summary = summary_of(words, problems);
+  if (!summary) return summary.error();
+  problems.report(console);
+  const auto findings = io::diagnose(*summary);
   if (findings.empty() && problems.count() == 0) console.say("nothing unusual");
-  console.result({{"findings", list}, {"problems", problems.lines()}});
+  return nlohmann::json{{"findings", say_findings(console, findings)}, {"problems", problems.lines()}};
+}
+
+int doctor(const Console& console, const InfoWords& words) {
+  if (is_map(words.path)) return map_info(console, words.path);
+  const auto first = io::open_recording(words.path, {.topic = words.topic, .scans_optional = true});
+  if (!first) return console.fail(first.error());
+  const auto topics = topics_to_choose_from(*first);
+  if (topics.empty()) {
+    const auto found = examine(console, words);
+    if (!found) return console.fail(found.error());
+    console.result(*found);
+    return exit_good;
+  }
+  nlohmann::json all;
+  for (const std::string& topic : topics) {
+    console.say(topic + ":");
+    auto found = examine(console, {words.path, topic});
+    if (!found) console.say("! " + to_string(found.error()));
+    all[topic] = found ? *std::move(found) : nlohmann::json{{"error", to_string(found.error())}};
+  }
+  console.result({{"topics", all}});
   return exit_good;
 }
 

@@ -10,7 +10,7 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   auto words = std::make_shared<LocalizeWords>();
   command
       ->add_option("recording", words->recording,
-                   "The recording: MCAP, ROS 1 bag, CARMEN log, rostopic echo text")
+                   "The recording: MCAP, ROS 1 or 2 bag, CARMEN log, text of rostopic or ros2 topic echo")
       ->required();
   command->add_option("--map", words->map, "The map: floor plan YAML, or map_server YAML")->required();
   command->add_option("--out", words->out, "Folder for trajectory, estimates, config, report and summary");

@@ -30,6 +30,36 @@ void LaserWords::settle_one(std::string& topic, std::string& place) const {
   if (!places.empty()) place = places.front();
 }
 
+Result<std::vector<OneLaser>> open_each(const std::string& path, const ScanWords& words,
+                                        const std::vector<std::string>& topics, ProblemLog& problems) {
+  std::vector<OneLaser> lasers;
+  for (const std::string& topic : topics) {
+    ScanWords of_one = words;
+    of_one.topic = topic;
+    auto recording = open_recording(path, of_one, problems);
+    if (!recording) return recording.error();
+    auto frame = frame_of(*recording);
+    if (!frame) return frame.error();
+    if (frame->empty())
+      return Error{path,
+                   "scans of " + topic + " tell no frame, by which those of several lasers are told apart",
+                   "several lasers need a bag or an MCAP file with frames"};
+    for (const OneLaser& other : lasers)
+      if (other.frame_id == *frame)
+        return Error{path, topic + " has the frame \"" + *frame + "\" of another of the lasers",
+                     "scans are told apart by their frames: give each driver one of its own"};
+    lasers.push_back({*std::move(recording), *std::move(frame)});
+  }
+  return lasers;
+}
+
+io::Recording merged(std::vector<OneLaser> lasers, const io::ScanSelection& scans) {
+  std::vector<io::Recording> recordings;
+  recordings.reserve(lasers.size());
+  for (OneLaser& laser : lasers) recordings.push_back(std::move(laser.recording));
+  return io::merge_recordings(std::move(recordings), scans);
+}
+
 Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, const LaserWords& told,
                              ProblemLog& problems) {
   const auto& [topics, places] = told;
@@ -40,29 +70,16 @@ Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, co
                  "give one for each --topic, in their order"};
   const auto scans = words.selection();
   if (!scans) return scans.error();
-  std::vector<io::Recording> recordings;
+  auto each = open_each(path, words, topics, problems);
+  if (!each) return each.error();
   std::vector<LaserOnRobot> lasers;
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    ScanWords of_one = words;
-    of_one.topic = topics[i];
-    auto recording = open_recording(path, of_one, problems);
-    if (!recording) return recording.error();
-    auto frame = frame_of(*recording);
-    if (!frame) return frame.error();
-    const auto place = place_of(*recording, places, i);
+  for (std::size_t i = 0; i < each->size(); ++i) {
+    const OneLaser& laser = (*each)[i];
+    const auto place = place_of(laser.recording, places, i);
     if (!place) return place.error();
-    if (frame->empty())
-      return Error{
-          path, "scans of " + topics[i] + " tell no frame, by which those of several lasers are told apart",
-          "several lasers need a bag or an MCAP file with frames"};
-    for (const LaserOnRobot& other : lasers)
-      if (other.frame_id == *frame)
-        return Error{path, topics[i] + " has the frame \"" + *frame + "\" of another of the lasers",
-                     "scans are told apart by their frames: give each driver one of its own"};
-    lasers.push_back({*std::move(frame), *place});
-    recordings.push_back(*std::move(recording));
+    lasers.push_back({laser.frame_id, *place});
   }
-  return LaserSet{merge_recordings(std::move(recordings), *scans), std::move(lasers)};
+  return LaserSet{merged(*std::move(each), *scans), std::move(lasers)};
 }
 
 }  // namespace beaconless::cli

@@ -57,7 +57,9 @@ Result<LocalizePlan> plan_of(const LocalizeWords& words) {
   if (!words.lasers.are_several())
     plan.scans = *scans;  // else each laser's are selected where all are merged
   if (words.start.empty() == words.start_from.empty())
-    return Error{"start", "the start pose is not given, or given twice",
+    return Error{"--start",
+                 words.start.empty() ? "where the robot starts is not said"
+                                     : "where the robot starts is said twice, by --start-from too",
                  "give --start x,y,deg|auto|near:x,y,radius|resume:FILE or --start-from REF.tum|recorded"};
   if (!words.start.empty()) {
     auto start = start_from_words(words.start);

@@ -34,6 +34,11 @@ LocalizePlan placed(LocalizePlan plan, const LocalizeWords& words, const io::Rec
                     const std::vector<LaserOnRobot>& lasers, const Console& console) {
   plan.config.lasers = lasers;
   const auto& told = recording.laser_place();
+  const bool is_told_here = !words.base_from_laser.empty() || !words.config.empty() || !lasers.empty();
+  if (!told && !is_told_here && plan.config.base_from_laser == Pose2{})
+    console.note(
+        "nobody tells where the laser sits on the robot: the poses are those of the laser itself; "
+        "--base-from-laser x,y,deg tells it");
   if (!told || !words.base_from_laser.empty() || plan.config.base_from_laser != Pose2{}) return plan;
   console.note(laser_words(*told));
   plan.config.base_from_laser = told->base_from_laser;
@@ -135,8 +140,8 @@ int localize_run(const Console& console, const LocalizeWords& words) {
   const auto asked = plan_of(words);
   if (!asked) return console.fail(asked.error(), exit_usage);
   // 2. Open what is to be read.
-  if (!words.out.empty())
-    if (auto made = make_folder(words.out); !made) return console.fail(made.error());
+  const auto folder = RunFolder::make(words.out);
+  if (!folder) return console.fail(folder.error());
   ProblemLog problems;
   const auto inputs = open_inputs(console, words, *asked, problems);
   if (!inputs) return console.fail(inputs.error());

@@ -41,7 +41,8 @@ Result<Reproduction> reproduce(const Console& console, const ReproduceWords& wor
 int reproduce_run(const Console& console, const ReproduceWords& words) {
   auto methods = reproduced_methods(words.methods);
   if (!methods) return console.fail(methods.error(), exit_usage);
-  if (auto made = make_folder(words.out); !made) return console.fail(made.error());
+  const auto folder = RunFolder::make(words.out);
+  if (!folder) return console.fail(folder.error());
   const auto r = reproduce(console, words, *std::move(methods));
   if (!r) return console.fail(r.error());
   console.note("5. The report is written");

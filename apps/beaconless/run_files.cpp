@@ -35,7 +35,17 @@ Trajectory told_poses(const Run& run) {
 std::string config_text(const Run& run) {
   LocalizerConfig config = run.config;
   LocalizerConfig defaults;
-  return io::config_yaml(fields_of(config), fields_of(defaults));
+  std::string lasers;
+  for (const LaserOnRobot& laser : config.lasers) {
+    const Pose2& at = laser.base_from_laser;
+    lasers += fmt::format("#   {}: {},{},{}\n", laser.frame_id, at.x_m, at.y_m, degrees(at.theta_rad));
+  }
+  if (!lasers.empty())
+    lasers =
+        "# The lasers by the frames of their scans, as --base-from-laser and --topic told them (not part of\n"
+        "# this file: they are given again; base_from_laser below is that of none):\n" +
+        lasers;
+  return lasers + io::config_yaml(fields_of(config), fields_of(defaults));
 }
 
 report::RunReport report_of(const LocalizeWords& words, const Run& run,
@@ -157,11 +167,17 @@ int tell_end(const Console& console, const LocalizeWords& words, const Run& run)
 
 }  // namespace
 
-Result<Done> make_folder(const std::string& folder) {
+Result<RunFolder> RunFolder::make(const std::string& path) {
   std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) return Error{folder, failed.message(), "choose another --out"};
-  return Done{};
+  if (path.empty() || fs::is_directory(path, failed)) return RunFolder({});
+  fs::create_directories(path, failed);
+  if (failed) return Error{path, failed.message(), "choose another --out"};
+  return RunFolder(path);
+}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove(path_, ignored);  // which spares one that holds anything
 }
 
 int finish_run(const Console& console, const LocalizeWords& words, const Run& run) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "beaconless/geometry/trajectory.hpp"
@@ -33,8 +34,21 @@ struct Run {
   std::vector<std::string> problems = {};
 };
 
-/// Makes the folder for a run's files, before the work that fills them.
-Result<Done> make_folder(const std::string& folder);
+/// The folder of a run's files, made before the work that fills them; gone again where that left it empty.
+class RunFolder {
+ public:
+  /// No path: no folder. Errors: it cannot be made.
+  static Result<RunFolder> make(const std::string& path);
+
+  RunFolder(RunFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  RunFolder& operator=(RunFolder&&) = delete;
+  ~RunFolder();
+
+ private:
+  explicit RunFolder(std::string made) : path_(std::move(made)) {}
+
+  std::string path_;  ///< empty where it was there before
+};
 
 /// Writes trajectory.tum, estimates.csv, config.yaml, summary.json, map.svg and report.html where the words
 /// say, tells the result, and gives the exit code.

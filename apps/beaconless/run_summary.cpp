@@ -132,6 +132,11 @@ nlohmann::json summary_of(const LocalizeWords& words, const Run& run,
     for (const report::CandidatePlaces& fitted : run.replay.places)
       summary["places"].push_back(to_json(fitted));
   }
+  for (const LaserOnRobot& laser : run.config.lasers) {
+    const Pose2& at = laser.base_from_laser;
+    summary["lasers"].push_back(
+        {{"frame_id", laser.frame_id}, {"base_from_laser", {at.x_m, at.y_m, at.theta_rad}}});
+  }
   if (run.windows) summary["windows"] = run.windows->summary;
   if (judgement) summary["error"] = to_json(*judgement);
   if (run.reference)

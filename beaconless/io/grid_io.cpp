@@ -142,7 +142,7 @@ Result<OccupancyGrid> grid_from_yaml(const std::string& path, const YamlNode& ya
   const auto image_path = std::filesystem::path(path).parent_path() / name->text;
   const auto image = read_image(image_path.string());
   if (!image)
-    return Error{where_in(path, *name), "image: " + to_string(image.error()),
+    return Error{where_in(path, *name), "image: " + image.error().where + ": " + image.error().what,
                  "a relative path counts from the folder of the YAML"};
   const bool scale = shades->mode == GridMode::scale;
   const int occupied_from = scale ? OccupancyGrid::kOccupied : std::max(1, percent(shades->occupied_thresh));

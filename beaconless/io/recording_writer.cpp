@@ -69,17 +69,35 @@ class CarmenRecording : public RecordingWriter {
   void write(const Event& event) override {
     if (const auto* reference = std::get_if<ReferencePose>(&event); reference && reference->base_from_laser)
       log_.place_laser(*reference->base_from_laser);
-    std::visit([this](const auto& e) { log_.write(e); }, event);
+    std::visit([this](const auto& e) { take(e); }, event);
   }
   bool good() const override { return log_.good(); }
+  std::map<std::string, std::uint64_t> left_out() const override { return left_out_; }
   Result<Done> finish() override {
     if (!log_.close()) return Error{file_.path(), "cannot be written", kNoRoom};
     return file_.keep();
   }
 
  private:
+  void take(const Scan& scan) { log_.write(scan); }
+  void take(const Odometry& odometry) { take_first(odometry, odometry_); }
+  void take(const ReferencePose& pose) { take_first(pose, poses_); }
+
+  /// What is of another source would read back as readings of this one.
+  template <class Reading>
+  void take_first(const Reading& reading, std::optional<std::string>& source) {
+    if (!source) source = reading.source;
+    if (*source == reading.source)
+      log_.write(reading);
+    else
+      ++left_out_[reading.source];
+  }
+
   PartFile file_;
   CarmenWriter log_;
+  std::optional<std::string> odometry_;  ///< the source of it that is written
+  std::optional<std::string> poses_;
+  std::map<std::string, std::uint64_t> left_out_;
 };
 
 /// What all formats of ROS have in common.
@@ -90,13 +108,14 @@ class RosRecording : public RecordingWriter {
       : scan_topic_(options.scan_topic.starts_with('/') ? options.scan_topic : "/scan"),
         file_(std::move(file)),
         sink_(std::move(sink)),
-        events_(*sink_, encoding) {
+        events_(*sink_, encoding),
+        lasers_(options.lasers) {
     if (options.laser_place)
       events_.place_laser(options.laser_place->base_from_laser, options.laser_place->base_frame);
   }
 
   void write(const Event& event) override {
-    if (const auto* scan = std::get_if<Scan>(&event)) events_.write(*scan, scan_topic_);
+    if (const auto* scan = std::get_if<Scan>(&event)) put(*scan);
     if (const auto* odometry = std::get_if<Odometry>(&event)) events_.write(*odometry);
     if (const auto* reference = std::get_if<ReferencePose>(&event)) events_.write(*reference);
   }
@@ -112,10 +131,21 @@ class RosRecording : public RecordingWriter {
   virtual Result<Done> complete() { return Done{}; }
 
  private:
+  void put(const Scan& scan) {
+    const auto laser = lasers_.find(scan.frame_id());
+    if (laser == lasers_.end()) return events_.write(scan, scan_topic_);
+    if (const auto& place = laser->second.place)
+      events_.place_laser(place->base_from_laser, place->base_frame);
+    else
+      events_.unplace_laser();
+    events_.write(scan, laser->second.topic);
+  }
+
   std::string scan_topic_;
   std::unique_ptr<PartFile> file_;
   std::unique_ptr<RosMessageSink> sink_;
   RosEventWriter events_;
+  std::map<std::string, WrittenLaser> lasers_;
 };
 
 /// A bag of ROS 2 with the metadata beside its file.
@@ -190,6 +220,9 @@ Result<Done> can_write_recording(const std::string& path, const RecordingWriterO
     return Error{path, "its name does not end like a format that can be written",
                  "written are .mcap (MCAP), .db3 or for a folder / (ROS 2 bag), .bag (ROS 1 bag), and .log, "
                  ".clf, .carmen (CARMEN), the last three also with .gz"};
+  if (format->kind == Kind::carmen && options.lasers.size() > 1)
+    return Error{path, "a CARMEN log holds the scans of one laser here",
+                 "convert each --topic into a log of its own"};
   const auto& known = format->compressions;
   if (options.compression.empty() ||
       std::find(known.begin(), known.end(), options.compression) != known.end())

@@ -81,7 +81,7 @@ std::string RosEventWriter::transform(Stamp stamp, std::string_view parent, std:
 void RosEventWriter::put_scan(RawScan scan, std::string_view topic) {
   if (mount_) {
     if (scan.frame_id.empty() || scan.frame_id == mount_->base_frame) scan.frame_id = kLaser;
-    if (mount_->told.insert(scan.frame_id).second)
+    if (placed_.insert(scan.frame_id).second)
       put(kFixed, kTransforms, scan.stamp,
           transform(scan.stamp, mount_->base_frame, scan.frame_id, mount_->base_from_laser));
   }

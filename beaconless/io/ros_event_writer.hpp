@@ -31,6 +31,9 @@ class RosEventWriter {
   /// could place it. A frame's first place stays. An empty `base_frame` is "base_link".
   void place_laser(const Pose2& base_from_laser, std::string_view base_frame = {});
 
+  /// Nobody knows where the laser of the scans to come sits.
+  void unplace_laser() { mount_.reset(); }
+
   void write(const RawScan& scan, std::string_view topic);  ///< sensor_msgs/LaserScan
   void write(const Scan& scan, std::string_view topic);
 
@@ -46,7 +49,6 @@ class RosEventWriter {
   struct Mount {
     Pose2 base_from_laser;
     std::string base_frame;
-    std::set<std::string> told;  ///< frames of lasers
   };
 
   void put_scan(RawScan scan, std::string_view topic);
@@ -56,6 +58,7 @@ class RosEventWriter {
   RosMessageSink& sink_;
   RosEncoding encoding_;
   std::optional<Mount> mount_;
+  std::set<std::string> placed_;  ///< frames of lasers that /tf_static has
   std::int64_t last_recorded_ns_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "beaconless/core/suggest.hpp"
+#include "beaconless/io/ros_events.hpp"
 
 namespace beaconless::io {
 namespace {
@@ -22,6 +23,8 @@ std::string listed(std::span<const Topic> topics) {
 }
 
 }  // namespace
+
+bool is_scan_topic(const Topic& topic) { return topic.type == "scan" || is_laser_scan_type(topic.type); }
 
 Result<std::string> choose_scan_topic(const std::string& path, const RecordingOptions& options,
                                       std::span<const Topic> scan_topics) {

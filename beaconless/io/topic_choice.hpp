@@ -9,6 +9,9 @@
 
 namespace beaconless::io {
 
+/// Whether a topic holds scans, as a bag calls them or a log.
+bool is_scan_topic(const Topic& topic);
+
 /// Which of a recording's scan topics to read: the wanted one (a leading slash may be left out), or the only
 /// one there is; "" when nothing is wanted and there is none, or several and scans are optional.
 ///

@@ -327,6 +327,22 @@ TEST_F(Localize, AStartFarOutGivesNoNonsense) {
   EXPECT_LT(distance_m(estimates.back().map_from_base, truth.at(estimates.back().stamp).value()), 0.05);
 }
 
+TEST_F(Localize, SaysThatNobodyTellsWhereTheLaserSits) {
+  const Words bare{"localize", recording(), "--map", plan(), "--start-from", truth()};
+  EXPECT_THAT(run(bare).err, HasSubstr("nobody tells where the laser sits"));
+  for (const Words& told : {Words{"--base-from-laser", "0,0,0"}, Words{"--set", "base_from_laser.x_m=0.7"}})
+    EXPECT_THAT(run(bare + told).err, Not(HasSubstr("nobody tells")));
+}
+
+TEST_F(Localize, AFolderThatStaysEmptyIsNotLeftBehind) {
+  const Words bad{"localize", folder.path("missing.bag"), "--map", plan(), "--start", "auto"};
+  EXPECT_EQ(run(bad + Words{"--out", folder.path("run")}).exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("run")));
+  std::filesystem::create_directory(folder.path("mine"));
+  EXPECT_EQ(run(bad + Words{"--out", folder.path("mine")}).exit_code, 3);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("mine")));
+}
+
 TEST_F(Localize, AFolderThatCannotBeMadeIsToldBeforeTheWork) {
   const Ran ran = run(localize() + Words{"--out", folder.path("drive.yaml")});
   EXPECT_EQ(ran.exit_code, 3);

@@ -97,6 +97,55 @@ TEST_F(SeveralLasers, AreWrittenForViewersUnderTheirOwnTopicsAndAtTheirPlaces) {
   }
 }
 
+TEST_F(SeveralLasers, GoIntoACopyUnderTheirOwnTopicsAndAtTheirPlaces) {
+  std::vector<std::string> names{"copy.mcap", "copy.db3"};
+#ifdef BEACONLESS_HAS_ROSBAG1
+  names.emplace_back("copy.bag");
+#endif
+  const auto scans_of = [](const std::string& path, const std::string& topic) {
+    std::vector<Scan> scans;
+    for (const Event& event : io::open_recording(path, {.topic = topic}).value())
+      if (const auto* scan = std::get_if<Scan>(&event)) scans.push_back(*scan);
+    return scans;
+  };
+  for (const std::string& name : names) {
+    const Ran ran =
+        run({"--json", "convert", drive(), folder.path(name), "--topic", "/front", "--topic", "/rear"});
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.json()["scans"], 40);
+    for (const auto& [topic, x_m] : {std::pair{"/front", 0.5}, {"/rear", -0.5}}) {
+      EXPECT_EQ(scans_of(folder.path(name), topic), scans_of(drive(), topic)) << name << topic;
+      const auto place = io::open_recording(folder.path(name), {.topic = topic}).value().laser_place();
+      ASSERT_TRUE(place) << name << topic;
+      EXPECT_EQ(place->base_from_laser.x_m, x_m);
+    }
+  }
+  const Ran log = run({"convert", drive(), folder.path("copy.log"), "--topic", "/front", "--topic", "/rear"});
+  EXPECT_NE(log.exit_code, 0);
+  EXPECT_THAT(log.err, HasSubstr("one laser"));
+}
+
+TEST_F(SeveralLasers, AreExaminedOneAfterTheOther) {
+  const Ran ran = run({"doctor", drive()});
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_THAT(ran.out, testing::AllOf(HasSubstr("/front:\n"), HasSubstr("/rear:\n"),
+                                      testing::Not(HasSubstr("no scans"))));
+  EXPECT_EQ(run({"--json", "doctor", drive()}).json()["topics"].size(), 2U);
+}
+
+TEST_F(SeveralLasers, AreInTheFilesOfTheRun) {
+  const Ran ran = run(localize({"--topic", "/front", "--topic", "/rear", "--out", folder.path("run")}));
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto lasers = ran.json()["lasers"];
+  ASSERT_EQ(lasers.size(), 2U);
+  EXPECT_EQ(lasers[1]["frame_id"], "rear");
+  EXPECT_EQ(lasers[1]["base_from_laser"][0], -0.5);
+  EXPECT_THAT(folder.read("run/config.yaml"), HasSubstr("#   rear: -0.5,0,"));
+  const Ran again =
+      run(localize({"--topic", "/front", "--topic", "/rear", "--config", folder.path("run/config.yaml")}));
+  EXPECT_EQ(again.json()["error"], ran.json()["error"]);
+}
+
 TEST_F(SeveralLasers, DrawOneMap) {
   const Ran ran = run({"--json", "map", "build", drive(), "--topic", "/front", "--topic", "/rear", "--poses",
                        truth(), "--out", folder.path("both.yaml")});

@@ -87,6 +87,27 @@ TEST(RecordingWriter, ALogTellsTheLasersPlaceToo) {
   EXPECT_EQ(io::open_recording(folder.path("a.log"))->laser_place()->base_from_laser, kPlace.base_from_laser);
 }
 
+TEST(RecordingWriter, ALogHoldsTheFirstSourceOfEachKindAndSaysWhatItLeftOut) {
+  const TempFolder folder;
+  auto writer = io::make_recording_writer(folder.path("a.log")).value();
+  for (const Event& event : a_drive()) writer->write(event);
+  writer->write(ReferencePose{{5}, {9.0, 9.0, 0.0}, std::nullopt, "/amcl_pose"});
+  EXPECT_EQ(writer->left_out(),
+            (std::map<std::string, std::uint64_t>{{"/tf odom->base", 12}, {"/amcl_pose", 1}}));
+  ASSERT_TRUE(writer->finish());
+  std::size_t odometry = 0;
+  std::size_t poses = 0;
+  for (const Event& event : io::open_recording(folder.path("a.log")).value()) {
+    if (const auto* reading = std::get_if<Odometry>(&event)) {
+      EXPECT_EQ(reading->odom_from_base.y_m, 2.0);
+      ++odometry;
+    }
+    poses += std::holds_alternative<ReferencePose>(event) ? 1 : 0;
+  }
+  EXPECT_EQ(odometry, 12U);
+  EXPECT_EQ(poses, 12U);
+}
+
 TEST(RecordingWriter, TheFirstPlaceThatAReferenceTellsIsTaken) {
   const TempFolder folder;
   auto names = whole_formats();

@@ -19,7 +19,6 @@ import node_on_a_bag as on_a_bag
 import rosgraph
 
 WIDTH, HEIGHT = 1240, 840
-VIEWS = {"room": (6.0, 4.0, 70), "agv": (12.0, 4.0, 45)}  # x, y, pixels a metre
 # What is to be seen, in the colours of the RViz file and of RViz's maps, and in how many pixels at least.
 SEEN = {"the floor of the map": ((194, 194, 194), 50_000), "the scan on the walls": ((26, 191, 51), 400),
         "the path": ((25, 120, 255), 300), "the pose": ((205, 35, 15), 30)}  # shaded by its heading
@@ -68,10 +67,9 @@ def run(node, rviz_file, name_of_drive, picture, folder, processes):
     processes.start("Xvfb", f":{port}", "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", folder, "-nolisten", "tcp")
     processes.start("roscore", "-p", port)
     on_a_bag.wait_for("roscore", lambda: rosgraph.is_master_online(os.environ["ROS_MASTER_URI"]))
-    x, y, scale = VIEWS[name_of_drive]
-    view = folder / "view.rviz"
+    view = folder / "view.rviz"  # as it is shipped, in the drive's own frames
     view.write_text(rviz_file.read_text(encoding="utf-8").replace("Fixed Frame: map", f"Fixed Frame: {drive.map_frame}")
-                    .replace("Scale: 45, X: 0, Y: 0", f"Scale: {scale}, X: {x}, Y: {y}"), encoding="utf-8")
+                    .replace("Target Frame: base_link", f"Target Frame: {drive.base_frame}"), encoding="utf-8")
     rosgraph.Master("/screen").setParam("/use_sim_time", True)
     start = [f"_initial_pose_{axis}:={value}" for axis, value in zip("xy", drive.start)]
     processes.start(node, f"_map_file:={drive.map_file}", f"_global_frame_id:={drive.map_frame}",
