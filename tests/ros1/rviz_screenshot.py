@@ -21,7 +21,7 @@ import rosgraph
 WIDTH, HEIGHT = 1240, 840
 # What is to be seen, in the colours of the RViz file and of RViz's maps, and in how many pixels at least.
 SEEN = {"the floor of the map": ((194, 194, 194), 50_000), "the scan on the walls": ((26, 191, 51), 400),
-        "the path": ((25, 120, 255), 300), "the pose": ((205, 35, 15), 30)}  # shaded by its heading
+        "the path": ((25, 120, 255), 300), "the pose": ((205, 35, 15), 20), "its covariance": ((199, 122, 199), 20)}  # shaded by its heading
 
 
 def screenshot(folder):
