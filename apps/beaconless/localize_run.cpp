@@ -37,7 +37,7 @@ LocalizePlan placed(LocalizePlan plan, const LocalizeWords& words, const io::Rec
   const bool is_told_here = !words.base_from_laser.empty() || !words.config.empty() || !lasers.empty();
   if (!told && !is_told_here && plan.config.base_from_laser == Pose2{})
     console.note(
-        "nobody tells where the laser sits on the robot: the poses are those of the laser itself; "
+        "where the laser sits on the robot is not told: the poses are those of the laser itself; "
         "--base-from-laser x,y,deg tells it");
   if (!told || !words.base_from_laser.empty() || plan.config.base_from_laser != Pose2{}) return plan;
   console.note(laser_words(*told));

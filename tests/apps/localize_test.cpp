@@ -327,11 +327,11 @@ TEST_F(Localize, AStartFarOutGivesNoNonsense) {
   EXPECT_LT(distance_m(estimates.back().map_from_base, truth.at(estimates.back().stamp).value()), 0.05);
 }
 
-TEST_F(Localize, SaysThatNobodyTellsWhereTheLaserSits) {
+TEST_F(Localize, SaysThatItIsNotToldWhereTheLaserSits) {
   const Words bare{"localize", recording(), "--map", plan(), "--start-from", truth()};
-  EXPECT_THAT(run(bare).err, HasSubstr("nobody tells where the laser sits"));
+  EXPECT_THAT(run(bare).err, HasSubstr("where the laser sits on the robot is not told"));
   for (const Words& told : {Words{"--base-from-laser", "0,0,0"}, Words{"--set", "base_from_laser.x_m=0.7"}})
-    EXPECT_THAT(run(bare + told).err, Not(HasSubstr("nobody tells")));
+    EXPECT_THAT(run(bare + told).err, Not(HasSubstr("is not told")));
 }
 
 TEST_F(Localize, AFolderThatStaysEmptyIsNotLeftBehind) {
