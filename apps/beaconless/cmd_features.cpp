@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "features_run.hpp"
+#include "scan_options.hpp"
 
 namespace beaconless::cli {
 namespace {
@@ -60,11 +61,7 @@ void add_features(CLI::App& app, Console& console, int& exit_code) {
       ->capture_default_str();
   command->add_option("--topic", words->scan.topic, "Which scans: a topic of a bag, a keyword of a log");
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
-  command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
-      ->check(not_from_zero_on, "NUMBER >= 0");
-  command
-      ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
-      ->check(not_from_zero_on, "NUMBER >= 0");
+  add_scan_range_options(*command, words->scan);
   command->footer(
       "Example:  beaconless features drive.log --detector corners,falko --scan 40 --plot scan.svg");
   command->callback([&console, &exit_code, words] { exit_code = features_run(console, *words); });

@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "localize_run.hpp"
+#include "scan_options.hpp"
 
 namespace beaconless::cli {
 void add_localize(CLI::App& app, Console& console, int& exit_code) {
@@ -55,18 +56,8 @@ void add_localize(CLI::App& app, Console& console, int& exit_code) {
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
   command->add_option("--sigma", words->sigma_m, "Standard deviation of the laser's ranges [m]")
       ->check(not_positive, "NUMBER > 0");
-  command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
-      ->check(CLI::IsMember({"first", "middle", "last"}))
-      ->capture_default_str();
-  command
-      ->add_option("--sweep-time", words->scan.sweep_time_s,
-                   "From a sweep's first beam to its last [s], where the source does not tell or tells wrong")
-      ->check(not_a_sweep, "0 <= NUMBER < 60");
-  command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
-      ->check(not_from_zero_on, "NUMBER >= 0");
-  command
-      ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
-      ->check(not_from_zero_on, "NUMBER >= 0");
+  add_scan_time_options(*command, words->scan);
+  add_scan_range_options(*command, words->scan);
   command->add_option("--config", words->config, "Parameters from a YAML file");
   command->add_option("--set", words->set, "One parameter, name=value; may be repeated")
       ->allow_extra_args(false);

@@ -11,6 +11,7 @@
 #include "map_features_run.hpp"
 #include "map_slam.hpp"
 #include "poses_of.hpp"
+#include "scan_options.hpp"
 #include "words.hpp"
 
 namespace beaconless::cli {
@@ -173,18 +174,8 @@ void add_map(CLI::App& app, Console& console, int& exit_code) {
                    "Which scans: a topic of a bag, a keyword of a log; of several lasers one topic each")
       ->allow_extra_args(false);
   command->add_option("--scans", words->scan.scans, "Which of them, start:stop:step counted from 0");
-  command->add_option("--stamp-is", words->scan.stamp_is, "The beam that the scans' stamps mean")
-      ->check(CLI::IsMember({"first", "middle", "last"}))
-      ->capture_default_str();
-  command
-      ->add_option("--sweep-time", words->scan.sweep_time_s,
-                   "From a sweep's first beam to its last [s], where the source does not tell or tells wrong")
-      ->check(not_a_sweep, "0 <= NUMBER < 60");
-  command->add_option("--min-range", words->scan.min_range_m, "Take nearer beams for no hits [m]")
-      ->check(not_from_zero_on, "NUMBER >= 0");
-  command
-      ->add_option("--max-range", words->scan.max_range_m, "Take beams this far or further for no return [m]")
-      ->check(not_from_zero_on, "NUMBER >= 0");
+  add_scan_time_options(*command, words->scan);
+  add_scan_range_options(*command, words->scan);
   command->footer(
       "Examples: beaconless map build drive.log --poses recorded --resolution 0.05 --out hall.yaml\n"
       "          beaconless map build drive.log --slam hector --out hall.yaml --out-poses drive.tum");
