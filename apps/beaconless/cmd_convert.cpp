@@ -81,23 +81,33 @@ Result<Source> open_several(const ConvertWords& words, const io::ScanSelection& 
   auto lasers = open_each(words.from, words.scan, words.topics, problems);
   if (!lasers) return lasers.error();
   io::RecordingWriterOptions options{.compression = words.compression};
-  for (const OneLaser& laser : *lasers)
+  for (const io::LaserRecording& laser : *lasers)
     options.lasers[laser.frame_id] = {laser.recording.scan_topic(), laser.recording.laser_place()};
-  return Source{merged(*std::move(lasers), scans), {}, std::move(options)};
+  const auto add = [&problems](const io::Problem& problem) { problems.add(problem); };
+  return Source{io::merge_recordings(*std::move(lasers), scans, add), {}, std::move(options)};
 }
 
-void tell_left_out(const Console& console, const io::RecordingWriter& to) {
-  for (const auto& [source, count] : to.left_out())
+/// Tells what the copy has no room for, and takes it off what was copied.
+nlohmann::json settle_left_out(const Console& console, const io::RecordingWriter& to, Copied& copied) {
+  nlohmann::json told = nlohmann::json::object();
+  for (const auto& [source, count] : to.left_out()) {
+    copied.odometry -= count.odometry;
+    copied.poses -= count.poses;
+    told[source] = count.odometry + count.poses;
     console.warn(
         fmt::format("{} readings of {} are left out: a CARMEN log has room for one source of poses and "
                     "one of odometry",
-                    count, source));
+                    count.odometry + count.poses, source));
+  }
+  return told;
 }
 
 int convert(const Console& console, const ConvertWords& words) {
   const auto scans = words.scan.selection();
   if (!scans) return console.fail(scans.error(), exit_usage);
-  const io::RecordingWriterOptions options{.compression = words.compression};
+  io::RecordingWriterOptions options{.compression = words.compression};
+  if (words.topics.size() > 1)
+    for (const std::string& topic : words.topics) options.lasers[topic] = {};  // their frames come later
   if (const auto possible = io::can_write_recording(words.to, options); !possible)
     return console.fail(possible.error(), exit_usage);
   ProblemLog problems;
@@ -112,9 +122,9 @@ int convert(const Console& console, const ConvertWords& words) {
   if (!to) return console.fail(to.error());
 
   problems.listening = true;
-  const Copied copied = copy(from->recording, from->scans, *to.value());
+  Copied copied = copy(from->recording, from->scans, *to.value());
   problems.report(console);
-  tell_left_out(console, *to.value());
+  const auto left_out = settle_left_out(console, *to.value(), copied);
   if (auto written = to.value()->finish(); !written) return console.fail(written.error());
   const std::uint64_t bytes = bytes_of(words.to);
   console.say(fmt::format("{}: {} scans, {} odometry readings, {} poses, {:.1f} MB", words.to, copied.scans,
@@ -124,6 +134,7 @@ int convert(const Console& console, const ConvertWords& words) {
                   {"odometry", copied.odometry},
                   {"poses", copied.poses},
                   {"skipped", copied.skipped},
+                  {"left_out", left_out},
                   {"bytes", bytes}});
   return exit_good;
 }

@@ -204,14 +204,16 @@ int doctor(const Console& console, const InfoWords& words) {
     return exit_good;
   }
   nlohmann::json all;
+  bool is_any = false;
   for (const std::string& topic : topics) {
     console.say(topic + ":");
     auto found = examine(console, {words.path, topic});
     if (!found) console.say("! " + to_string(found.error()));
+    is_any = is_any || found;
     all[topic] = found ? *std::move(found) : nlohmann::json{{"error", to_string(found.error())}};
   }
   console.result({{"topics", all}});
-  return exit_good;
+  return is_any ? exit_good : exit_data;
 }
 
 using Verb = int (*)(const Console&, const InfoWords&);

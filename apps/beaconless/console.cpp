@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -69,8 +70,11 @@ void Progress::draw() const {
 
 void ProblemLog::add(const io::Problem& problem) {
   if (!listening) return;
+  std::string line = problem.where + ": " + problem.what;
+  // Several lasers of one file are several passes over it, each of which tells of it.
+  if (std::find(lines_.begin(), lines_.end(), line) != lines_.end()) return;
   ++count_;
-  if (lines_.size() < kShownProblems) lines_.push_back(problem.where + ": " + problem.what);
+  if (lines_.size() < kShownProblems) lines_.push_back(std::move(line));
 }
 
 void ProblemLog::forget() {

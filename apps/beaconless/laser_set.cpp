@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "laser_set.hpp"
 
-#include "beaconless/io/merged_recording.hpp"
-
 namespace beaconless::cli {
 namespace {
 
@@ -30,34 +28,31 @@ void LaserWords::settle_one(std::string& topic, std::string& place) const {
   if (!places.empty()) place = places.front();
 }
 
-Result<std::vector<OneLaser>> open_each(const std::string& path, const ScanWords& words,
-                                        const std::vector<std::string>& topics, ProblemLog& problems) {
-  std::vector<OneLaser> lasers;
+Result<std::vector<io::LaserRecording>> open_each(const std::string& path, const ScanWords& words,
+                                                  const std::vector<std::string>& topics,
+                                                  ProblemLog& problems) {
+  std::vector<io::LaserRecording> lasers;
   for (const std::string& topic : topics) {
     ScanWords of_one = words;
     of_one.topic = topic;
     auto recording = open_recording(path, of_one, problems);
     if (!recording) return recording.error();
+    for (const io::LaserRecording& other : lasers)
+      if (other.recording.scan_topic() == recording->scan_topic())
+        return Error{"--topic", recording->scan_topic() + " is named twice", "name each laser once"};
     auto frame = frame_of(*recording);
     if (!frame) return frame.error();
     if (frame->empty())
       return Error{path,
                    "scans of " + topic + " tell no frame, by which those of several lasers are told apart",
                    "several lasers need a bag or an MCAP file with frames"};
-    for (const OneLaser& other : lasers)
+    for (const io::LaserRecording& other : lasers)
       if (other.frame_id == *frame)
         return Error{path, topic + " has the frame \"" + *frame + "\" of another of the lasers",
                      "scans are told apart by their frames: give each driver one of its own"};
     lasers.push_back({*std::move(recording), *std::move(frame)});
   }
   return lasers;
-}
-
-io::Recording merged(std::vector<OneLaser> lasers, const io::ScanSelection& scans) {
-  std::vector<io::Recording> recordings;
-  recordings.reserve(lasers.size());
-  for (OneLaser& laser : lasers) recordings.push_back(std::move(laser.recording));
-  return io::merge_recordings(std::move(recordings), scans);
 }
 
 Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, const LaserWords& told,
@@ -74,12 +69,14 @@ Result<LaserSet> open_lasers(const std::string& path, const ScanWords& words, co
   if (!each) return each.error();
   std::vector<LaserOnRobot> lasers;
   for (std::size_t i = 0; i < each->size(); ++i) {
-    const OneLaser& laser = (*each)[i];
+    const io::LaserRecording& laser = (*each)[i];
     const auto place = place_of(laser.recording, places, i);
     if (!place) return place.error();
     lasers.push_back({laser.frame_id, *place});
   }
-  return LaserSet{merged(*std::move(each), *scans), std::move(lasers)};
+  return LaserSet{io::merge_recordings(*std::move(each), *scans,
+                                       [&problems](const io::Problem& problem) { problems.add(problem); }),
+                  std::move(lasers)};
 }
 
 }  // namespace beaconless::cli

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "beaconless/io/merged_recording.hpp"
 #include "beaconless/io/recording.hpp"
 #include "beaconless/localize/localizer_config.hpp"
 
@@ -29,20 +30,13 @@ struct LaserSet {
   std::vector<LaserOnRobot> lasers;
 };
 
-/// One of several lasers of a recording, opened by itself.
-struct OneLaser {
-  io::Recording recording;
-  std::string frame_id;
-};
-
 /// Opens a recording once for each of several topics, whose scans are told apart by their frames.
 ///
-/// Errors: those of open_recording, a topic without scans, scans without a frame, two topics of one frame.
-Result<std::vector<OneLaser>> open_each(const std::string& path, const ScanWords& words,
-                                        const std::vector<std::string>& topics, ProblemLog& problems);
-
-/// Those, as one recording of the scans that `scans` selects of each.
-io::Recording merged(std::vector<OneLaser> lasers, const io::ScanSelection& scans);
+/// Errors: those of open_recording, a topic that is named twice or has no scans, scans without a
+/// frame, two topics of one frame.
+Result<std::vector<io::LaserRecording>> open_each(const std::string& path, const ScanWords& words,
+                                                  const std::vector<std::string>& topics,
+                                                  ProblemLog& problems);
 
 /// Opens a recording to read the scans of several topics; where each laser sits is told by the words'
 /// places, in the order of the topics, or, where there are none, by the recording.

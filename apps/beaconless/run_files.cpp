@@ -38,7 +38,8 @@ std::string config_text(const Run& run) {
   std::string lasers;
   for (const LaserOnRobot& laser : config.lasers) {
     const Pose2& at = laser.base_from_laser;
-    lasers += fmt::format("#   {}: {},{},{}\n", laser.frame_id, at.x_m, at.y_m, degrees(at.theta_rad));
+    lasers +=
+        fmt::format("#   {}: {},{},{}\n", json_text(laser.frame_id), at.x_m, at.y_m, degrees(at.theta_rad));
   }
   if (!lasers.empty())
     lasers =

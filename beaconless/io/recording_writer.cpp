@@ -72,7 +72,7 @@ class CarmenRecording : public RecordingWriter {
     std::visit([this](const auto& e) { take(e); }, event);
   }
   bool good() const override { return log_.good(); }
-  std::map<std::string, std::uint64_t> left_out() const override { return left_out_; }
+  std::map<std::string, LeftOut> left_out() const override { return left_out_; }
   Result<Done> finish() override {
     if (!log_.close()) return Error{file_.path(), "cannot be written", kNoRoom};
     return file_.keep();
@@ -80,24 +80,24 @@ class CarmenRecording : public RecordingWriter {
 
  private:
   void take(const Scan& scan) { log_.write(scan); }
-  void take(const Odometry& odometry) { take_first(odometry, odometry_); }
-  void take(const ReferencePose& pose) { take_first(pose, poses_); }
+  void take(const Odometry& odometry) { take_first(odometry, odometry_, &LeftOut::odometry); }
+  void take(const ReferencePose& pose) { take_first(pose, poses_, &LeftOut::poses); }
 
   /// What is of another source would read back as readings of this one.
   template <class Reading>
-  void take_first(const Reading& reading, std::optional<std::string>& source) {
+  void take_first(const Reading& reading, std::optional<std::string>& source, std::uint64_t LeftOut::*count) {
     if (!source) source = reading.source;
     if (*source == reading.source)
       log_.write(reading);
     else
-      ++left_out_[reading.source];
+      ++(left_out_[reading.source].*count);
   }
 
   PartFile file_;
   CarmenWriter log_;
   std::optional<std::string> odometry_;  ///< the source of it that is written
   std::optional<std::string> poses_;
-  std::map<std::string, std::uint64_t> left_out_;
+  std::map<std::string, LeftOut> left_out_;
 };
 
 /// What all formats of ROS have in common.

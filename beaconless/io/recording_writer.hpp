@@ -13,6 +13,14 @@
 
 namespace beaconless::io {
 
+/// How many events of a source a format had no room for.
+struct LeftOut {
+  std::uint64_t odometry = 0;
+  std::uint64_t poses = 0;
+
+  friend bool operator==(const LeftOut&, const LeftOut&) = default;
+};
+
 /// One of several lasers whose scans are written.
 struct WrittenLaser {
   std::string topic;
@@ -42,8 +50,8 @@ class RecordingWriter {
   /// this nothing is left behind.
   virtual Result<Done> finish() = 0;
 
-  /// What the format had no room for, by its source, with how many events of it.
-  virtual std::map<std::string, std::uint64_t> left_out() const { return {}; }
+  /// What the format had no room for, by its source.
+  virtual std::map<std::string, LeftOut> left_out() const { return {}; }
 };
 
 /// Whether a recording of this name and with these options could be written, without touching anything.

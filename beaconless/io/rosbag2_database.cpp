@@ -131,6 +131,9 @@ Result<Rosbag2Database> Rosbag2Database::open(const std::string& path) {
   // What a foreign file defines may not call functions.
   sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0,
                     nullptr);  // NOLINT(cppcoreguidelines-pro-type-vararg)
+  // Nor may a damaged page point past its end, where whatever was there before would be read.
+  // Source: sqlite.org/security.html.
+  sqlite3_exec(raw, "PRAGMA cell_size_check=ON", nullptr, nullptr, nullptr);
   const auto tables = database.prepare(
       "SELECT (SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages') "
       "AND sql NOT LIKE 'CREATE VIRTUAL%'), (SELECT count(*) FROM pragma_table_xinfo('topics') WHERE hidden "

@@ -25,6 +25,7 @@ struct Handlers {
   std::function<void(const GridMessage&)> on_map;
   /// Of tf, told by another node: its name, and whether the transform is static.
   std::function<void(const TransformMessage&, const std::string&, bool)> on_transform_of_other;
+  std::function<void()> on_new_master;  ///< whose tf begins anew
   std::function<Answer(const GridMessage&, const PoseMessage&)> on_set_map;
   std::function<Answer()> on_global_localization;
   std::function<Answer()> on_request_nomotion_update;

@@ -36,6 +36,7 @@ Handlers Node::handlers() {
       .on_map = [this](const GridMessage& grid) { hear_map(grid); },
       .on_transform_of_other = [this](const TransformMessage& told, const std::string& teller,
                                       bool is_static) { hear_transform_of_other(told, teller, is_static); },
+      .on_new_master = [this] { hear_new_master(); },
       .on_set_map = [this](const GridMessage& grid,
                            const PoseMessage& pose) { return serve_set_map(grid, pose); },
       .on_global_localization = [this] { return serve_global_localization(); },
@@ -52,8 +53,7 @@ void Node::complain(const std::string& subject, Level level, const std::string& 
 // What was told before the first map, the start of the parameters, the one that was remembered, or none.
 void Node::start() {
   if (early_pose_) hear_initial_pose(*std::exchange(early_pose_, std::nullopt));
-  if (localization_.has_start()) return;
-  if (has_initial_pose_) {
+  if (has_initial_pose_ && !localization_.has_start()) {
     PoseMessage pose{0,
                      config_.global_frame_id,
                      transform_of({config_.initial_pose_x, config_.initial_pose_y, config_.initial_pose_a}),
@@ -61,17 +61,23 @@ void Node::start() {
     pose.covariance[0] = config_.initial_cov_xx;
     pose.covariance[7] = config_.initial_cov_yy;
     pose.covariance[35] = config_.initial_cov_aa;
-    return hear_initial_pose(pose);
+    hear_initial_pose(pose);
   }
+  if (localization_.has_start()) return;
   const auto remembered = memory_.recall();
   if (!remembered) complain("pose_file", Level::warn, to_string(remembered.error()));
   if (remembered && *remembered) {
     link_.log(Level::ok, fmt::format("starting where the robot was when {} was written", config_.pose_file));
     localization_.start_at(**remembered);
   } else if (config_.start == "auto") {
-    link_.log(Level::ok, "looking for the robot on the whole map");
-    localization_.start_anywhere();
+    search_everywhere();
   }
+}
+
+void Node::search_everywhere() {
+  link_.log(Level::ok, "looking for the robot on the whole map");
+  was_found_.reset();
+  localization_.start_anywhere();
 }
 
 Result<Done> Node::set_map(Map map, const io::MapIdentity& identity) {
@@ -109,6 +115,8 @@ void Node::hear_map(const GridMessage& grid) {
   if (!done) complain("map", Level::error, to_string(done.error()));
 }
 
+void Node::hear_new_master() { tf_rivals_.forget(); }
+
 void Node::hear_transform_of_other(const TransformMessage& told, const std::string& teller, bool is_static) {
   tf_rivals_.hear(told, teller, is_static, link_.steady_s());
 }
@@ -125,6 +133,7 @@ void Node::hear_initial_pose(const PoseMessage& pose) {
   }
   if (auto on_map = check_on_map(*guess, *localization_.map()); !on_map) return refuse(on_map.error());
   complaints_.clear("initialpose");
+  was_found_.reset();
   const Pose2& at = guess->map_from_base;
   link_.log(Level::ok, fmt::format("{} x {:.3f} m, y {:.3f} m, {:.1f} degrees",
                                    guess->within ? "searching around" : "starting at", at.x_m, at.y_m,
@@ -142,16 +151,17 @@ Answer Node::serve_set_map(const GridMessage& grid, const PoseMessage& pose) {
   auto map = grid_of_message(grid);
   if (!map) return {false, to_string(map.error())};
   if (auto on_map = check_on_map(*guess, *map); !on_map) return {false, to_string(on_map.error())};
+  const bool is_first = !localization_.has_map();
+  if (is_first) early_pose_ = pose;  // and the first map begins there
   if (auto taken = take_grid(*std::move(map), grid.frame_id); !taken)
     return {false, to_string(taken.error())};
-  hear_initial_pose(pose);
+  if (!is_first) hear_initial_pose(pose);
   return {true, ""};
 }
 
 Answer Node::serve_global_localization() {
   early_pose_.reset();
-  link_.log(Level::ok, "looking for the robot on the whole map");
-  localization_.start_anywhere();
+  search_everywhere();
   return {true, "looking on the whole map"};
 }
 

@@ -36,6 +36,7 @@ class Node {
   void hear_scan(const ScanMessage& scan);
   void hear_initial_pose(const PoseMessage& pose);
   void hear_map(const GridMessage& grid);
+  void hear_new_master();
   void hear_transform_of_other(const TransformMessage& told, const std::string& teller, bool is_static);
   Answer serve_set_map(const GridMessage& grid, const PoseMessage& pose);
   Answer serve_global_localization();
@@ -77,7 +78,8 @@ class Node {
   void tell(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate, const Scan& scan,
             const std::optional<Pose2>& odom_from_base);
   void tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base);
-  void log_change(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate);
+  void log_change(const PoseEstimate& estimate);
+  void search_everywhere();
   void grow_path(const PoseEstimate& estimate);
   Result<Done> use_map(Map map, const io::MapIdentity& identity);
   Result<Done> take_grid(OccupancyGrid grid, const std::string& frame);
@@ -109,7 +111,8 @@ class Node {
   bool is_path_new_ = false;
   std::uint64_t scans_heard_ = 0;
   std::uint64_t scans_dropped_ = 0;
-  double longest_ms_ = 0.0;  // from a scan's arrival to its pose, since the last diagnostic
+  std::optional<bool> was_found_;  // as the log has it, since it was last told where to start
+  double longest_ms_ = 0.0;        // from a scan's arrival to its pose, since the last diagnostic
 };
 
 }  // namespace beaconless::ros1

@@ -225,7 +225,7 @@ void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& e
         beams_message(before, estimate, scan, localization_.base_from_laser(scan.frame_id()), frame));
   if (auto saved = memory_.update(estimate); !saved)
     complain("pose_file", Level::warn, to_string(saved.error()), kRemember_s);
-  log_change(before, estimate);
+  log_change(estimate);
   // A pose that is not known is not told: whoever drives by it stops.
   if (!is_told(estimate)) return;
   link_.send_pose(pose_message(estimate, frame));
@@ -236,6 +236,13 @@ void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& e
 void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base) {
   if (!config_.tf_broadcast) return;
   if (estimate.stamp.ns <= last_tf_ns_) return;  // of two lasers at one moment: tf refuses a repetition
+  const double now_s = link_.steady_s();
+  const bool has_wheels = has_seen_wheels_ || odom_from_base;
+  const std::string& child = has_wheels ? config_.odom_frame_id : config_.base_frame_id;
+  if (const auto rival = tf_rivals_.beside(child, now_s))
+    complain("tf tree", Level::error, *rival, kRemember_s);
+  if (const auto loop = tf_rivals_.loop(child, now_s))
+    return complain("tf tree", Level::error, *loop, kRemember_s);
   TransformMessage message{(estimate.stamp + config_.transform_tolerance).ns, config_.global_frame_id,
                            config_.base_frame_id, transform_of(estimate.map_from_base)};
   if (odom_from_base) {
@@ -247,22 +254,20 @@ void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odo
         !config_.odom_frame_id.empty() && seconds_between(*first_scan_, estimate.stamp) < kWheelsMayCome_s;
     if (has_seen_wheels_ || may_come) return;
   }
-  const double now_s = link_.steady_s();
-  if (const auto loop = tf_rivals_.loop(now_s)) return complain("tf", Level::error, *loop, kRemember_s);
-  if (const auto rival = tf_rivals_.beside(message.child_frame_id, now_s))
-    complain("tf", Level::error, *rival, kRemember_s);
   link_.send_transform(message);
   last_tf_ns_ = estimate.stamp.ns;
 }
 
 // What the log is looked through for: when the robot was found, when it was lost and why.
-void Node::log_change(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate) {
-  const bool was_told = before && is_told(*before);
+void Node::log_change(const PoseEstimate& estimate) {
+  const bool is_found = is_told(estimate);
+  if (is_found == was_found_ || (!was_found_ && estimate.status != Status::lost && !is_found)) return;
+  was_found_ = is_found;
   const Pose2& at = estimate.map_from_base;
-  if (is_told(estimate) && !was_told)
+  if (is_found)
     link_.log(Level::ok, fmt::format("{} at x {:.3f} m, y {:.3f} m, {:.1f} degrees",
                                      to_string(estimate.status), at.x_m, at.y_m, degrees(at.theta_rad)));
-  if (!is_told(estimate) && was_told)
+  else
     link_.log(Level::warn, fmt::format("{}: {}", to_string(estimate.status), estimate.reason));
 }
 

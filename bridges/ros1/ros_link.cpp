@@ -214,6 +214,7 @@ void RosLink::look_after_master() {
   ROS_WARN("the ROS master does not know this node, as after a restart: subscribing and advertising again");
   wires_.reset();
   if (ros::Time::isSimTime()) hear_clock_again();
+  handlers_.on_new_master();
   wires_ = std::make_unique<Wires>(handlers_, scan_topics_, map_);
 }
 

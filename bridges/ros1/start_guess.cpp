@@ -72,6 +72,7 @@ Result<Done> check_on_map(const StartGuess& guess, const Map& map) {
   const Eigen::AlignedBox2d box = wall_box(map);
   const Pose2& at = guess.map_from_base;
   const double off_m = box.isEmpty() ? 0.0 : box.exteriorDistance(Eigen::Vector2d(at.x_m, at.y_m));
+  // A search looks for places between the walls only; who is sure may stand in the yard before them.
   if (off_m <= (guess.within ? guess.within->radius_m : kFurthestSight_m)) return Done{};
   return refused(
       fmt::format(

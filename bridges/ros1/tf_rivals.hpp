@@ -3,7 +3,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "bridges/ros1/messages.hpp"
 
@@ -17,26 +19,32 @@ class TfRivals {
  public:
   TfRivals(std::string map_frame, std::string odom_frame, std::string base_frame);
 
-  /// A transform that another node told; a static one holds for ever, others for ten seconds.
+  /// A transform that another node told. It holds for ten seconds, a static one for good: whoever heard it
+  /// goes by it, even when its teller has ended. What tf itself would not take is passed over.
   void hear(const TransformMessage& told, const std::string& teller, bool is_static, double now_s);
 
-  /// Who tells the map below odom or base: a loop, if the node told its own.
-  std::optional<std::string> loop(double now_s) const;
+  void forget() { told_.clear(); }  ///< all, as tf does under a new master
 
-  /// Who tells that child as well, which the node is about to tell below the map.
+  /// Who has put the map below that child, which the node would tell below the map: a loop.
+  std::optional<std::string> loop(const std::string& child, double now_s) const;
+
+  /// Who tells that child as well, or two parents of odom or base.
   std::optional<std::string> beside(const std::string& child, double now_s) const;
 
  private:
   struct Told {
     std::string parent;
-    std::string teller;
+    bool is_static = false;
     double until_s = 0.0;
   };
+  using ByTeller = std::map<std::string, Told>;
 
-  const Told* of(const std::string& child, double now_s) const;
+  const ByTeller& of(const std::string& child) const;
+  bool leads_up(const std::string& from, const std::string& to, double now_s,
+                std::set<std::string>& seen) const;
 
   std::string map_frame_, odom_frame_, base_frame_;
-  std::map<std::string, Told> told_;  // by the child: map, odom and base only
+  std::map<std::string, ByTeller> told_;  // by child
 };
 
 }  // namespace beaconless::ros1

@@ -140,7 +140,7 @@ TEST_F(SeveralLasers, AreInTheFilesOfTheRun) {
   ASSERT_EQ(lasers.size(), 2U);
   EXPECT_EQ(lasers[1]["frame_id"], "rear");
   EXPECT_EQ(lasers[1]["base_from_laser"][0], -0.5);
-  EXPECT_THAT(folder.read("run/config.yaml"), HasSubstr("#   rear: -0.5,0,"));
+  EXPECT_THAT(folder.read("run/config.yaml"), HasSubstr("#   \"rear\": -0.5,0,"));
   const Ran again =
       run(localize({"--topic", "/front", "--topic", "/rear", "--config", folder.path("run/config.yaml")}));
   EXPECT_EQ(again.json()["error"], ran.json()["error"]);

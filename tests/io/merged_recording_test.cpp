@@ -42,7 +42,7 @@ Recording rear() {
 }
 
 TEST(MergedRecording, ComesByItsStampsAndTellsOdometryOnce) {
-  const Recording both = merge_recordings({front(), rear()}, {});
+  const Recording both = merge_recordings({{front(), "front"}, {rear(), "rear"}}, {});
   const std::vector<std::string> expected{"front 1.0", "rear 1.1",  "odometry 1.2", "front 2.0",
                                           "rear 2.1",  "front 3.0", "odometry 3.2"};
   EXPECT_EQ(told_by(both), expected);
@@ -50,14 +50,30 @@ TEST(MergedRecording, ComesByItsStampsAndTellsOdometryOnce) {
 }
 
 TEST(MergedRecording, SelectsAmongTheScansOfEach) {
-  const Recording both = merge_recordings({front(), rear()}, ScanSelection::parse("1::2").value());
+  const Recording both =
+      merge_recordings({{front(), "front"}, {rear(), "rear"}}, ScanSelection::parse("1::2").value());
   EXPECT_THAT(told_by(both), ElementsAre("odometry 1.2", "front 2.0", "rear 2.1", "odometry 3.2"));
 }
 
 TEST(MergedRecording, GoesOnWhereOneEnds) {
-  const Recording both = merge_recordings({front(), recording_of({scan_of("rear", 9.0)})}, {});
+  const Recording both =
+      merge_recordings({{front(), "front"}, {recording_of({scan_of("rear", 9.0)}), "rear"}}, {});
   EXPECT_EQ(told_by(both).back(), "rear 9.0");
   EXPECT_EQ(told_by(both).size(), 6U);
+}
+
+TEST(MergedRecording, PassesOverScansThatCouldBeThoseOfAnother) {
+  const auto strange = recording_of({scan_of("rear", 1.1), scan_of("front", 1.2), scan_of("other", 1.3)});
+  std::vector<std::string> problems;
+  const Recording both = merge_recordings({{front(), "front"}, {strange, "rear"}}, {},
+                                          [&](const Problem& problem) { problems.push_back(problem.what); });
+  EXPECT_THAT(told_by(both),
+              ElementsAre("front 1.0", "rear 1.1", "odometry 1.2", "front 2.0", "front 3.0", "odometry 3.2"));
+  EXPECT_THAT(problems, ElementsAre(testing::HasSubstr("\"front\""), testing::HasSubstr("\"other\"")));
+  const auto pass = both.open_pass();
+  while (pass->next()) {
+  }
+  EXPECT_EQ(pass->skipped(), 2U);
 }
 
 }  // namespace

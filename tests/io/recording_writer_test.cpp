@@ -93,7 +93,7 @@ TEST(RecordingWriter, ALogHoldsTheFirstSourceOfEachKindAndSaysWhatItLeftOut) {
   for (const Event& event : a_drive()) writer->write(event);
   writer->write(ReferencePose{{5}, {9.0, 9.0, 0.0}, std::nullopt, "/amcl_pose"});
   EXPECT_EQ(writer->left_out(),
-            (std::map<std::string, std::uint64_t>{{"/tf odom->base", 12}, {"/amcl_pose", 1}}));
+            (std::map<std::string, io::LeftOut>{{"/tf odom->base", {12, 0}}, {"/amcl_pose", {0, 1}}}));
   ASSERT_TRUE(writer->finish());
   std::size_t odometry = 0;
   std::size_t poses = 0;

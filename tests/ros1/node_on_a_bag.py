@@ -35,7 +35,7 @@ try:
     import rospy
     import rosservice
     from diagnostic_msgs.msg import DiagnosticArray
-    from geometry_msgs.msg import PoseWithCovarianceStamped
+    from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
     from nav_msgs.msg import OccupancyGrid
     from nav_msgs.srv import SetMap
     from std_srvs.srv import Empty, Trigger
@@ -232,11 +232,23 @@ def check_services():
     print("services: save_pose, request_nomotion_update, global_localization, set_map answer")
 
 
+def check_rival(heard, drive):
+    """Somebody else tells the node's transform, too, and is named."""
+    publisher = rospy.Publisher("/tf", TFMessage, queue_size=1)
+    wait_for("the node to listen to tf", lambda: publisher.get_num_connections() > 1)  # ourselves are one
+    told = TransformStamped()
+    told.header.frame_id, told.child_frame_id, told.transform.rotation.w = drive.map_frame, "odom", 1.0
+    publisher.publish(TFMessage([told]))
+    wait_for("the one who tells odom as well to be named", lambda: heard.diagnosed('/driver tells "odom" below'))
+    print("tf: who tells the node's transform as well is named")
+
+
 def check_new_master(processes, core, process, port, drive, heard, before):
     """The master goes while the node is at work; by a new one it is heard by others when the recording is played again."""
     heard.poses.clear()
     interrupted = processes.start("rosbag", "play", "--clock", "--delay", "1", "--quiet", drive.bag)
     wait_for("poses of the second pass", lambda: heard.poses)
+    check_rival(heard, drive)
     processes.end(core)
     assert interrupted.poll() is None and process.poll() is None
     processes.start("roscore", "-p", port)

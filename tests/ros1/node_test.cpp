@@ -243,10 +243,51 @@ TEST_F(NodeTest, RefusesAnInitialPoseOffTheMap) {
   EXPECT_THAT(localizer->starts, SizeIs(1));
 }
 
+TEST_F(NodeTest, LooksEverywhereWhereItsParametersAreOffTheMap) {
+  settings.node.initial_pose_x = 480.0;
+  give_map(), give_laser();
+  scan(10);
+  EXPECT_THAT(localizer->starts, IsEmpty());
+  EXPECT_THAT(localizer->searches, SizeIs(1));
+}
+
+TEST_F(NodeTest, ForgetsAnEarlyPoseThatItIsToldToSearchFor) {
+  node().hear_initial_pose({0, "map", {1.0, 0.0}, {}});
+  node().serve_global_localization();
+  give_map(), give_laser();
+  scan(10);
+  EXPECT_THAT(localizer->starts, IsEmpty());
+  EXPECT_THAT(localizer->searches, SizeIs(1));
+}
+
+TEST_F(NodeTest, TakesTheLatestWordThatComesBeforeTheMap) {
+  node().serve_global_localization();
+  node().hear_initial_pose({0, "map", {1.0, 0.0}, {}});
+  give_map(), give_laser();
+  scan(10);
+  ASSERT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_EQ(localizer->starts[0].x_m, 1.0);
+}
+
+TEST_F(NodeTest, BeginsOnceWhereItsFirstMapIsSet) {
+  give_laser();
+  EXPECT_TRUE(node().serve_set_map({"map", 0.5, 1, 1, {}, {100}}, {0, "map", {7.0, 0.0}, {}}).is_done);
+  scan(10);
+  ASSERT_THAT(localizer->starts, SizeIs(1));
+  EXPECT_EQ(localizer->starts[0].x_m, 7.0);
+  EXPECT_THAT(localizer->searches, IsEmpty());
+}
+
+TEST_F(NodeTest, SaysThatAMapCannotBeRead) {
+  node().hear_map({"map", 0.5, 2, 2, {}, {100}});
+  EXPECT_THAT(diagnosed(), HasSubstr("map: "));
+  EXPECT_THAT(link.logs, Contains(HasSubstr("map: ")));
+}
+
 TEST_F(NodeTest, SendsNoTransformThatWouldCloseALoop) {
   give_map(), give_laser(), give_wheels();
-  const auto hear = [&](const char* parent, const char* child) {
-    node().hear_transform_of_other({0, parent, child, {}}, "/player", false);
+  const auto hear = [&](const char* parent, const char* child, bool is_static = false) {
+    node().hear_transform_of_other({0, parent, child, {}}, "/player", is_static);
   };
   hear("base_link", "laser"), hear("odom", "base_link"), hear("world", "map");
   scan(10);
@@ -261,10 +302,14 @@ TEST_F(NodeTest, SendsNoTransformThatWouldCloseALoop) {
   scan(12);
   EXPECT_THAT(link.sent_transforms, SizeIs(2));
   EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("/player")));
-  node().hear_transform_of_other({0, "odom", "map", {}}, "/fixed", true);
+  hear("odom", "map", true);
   link.steady += 1000.0;
   scan(13);
   EXPECT_THAT(link.sent_transforms, SizeIs(2));
+  EXPECT_THAT(diagnosed(), HasSubstr("static"));
+  node().hear_new_master();
+  scan(14);
+  EXPECT_THAT(link.sent_transforms, SizeIs(3));
 }
 
 TEST_F(NodeTest, SaysWhoTellsItsTransformAsWell) {
@@ -275,12 +320,12 @@ TEST_F(NodeTest, SaysWhoTellsItsTransformAsWell) {
   EXPECT_THAT(diagnosed(), HasSubstr("/amcl tells \"odom\" below \"map\""));
 }
 
-TEST_F(NodeTest, NamesTheFrameThatTheWheelsMayHave) {
-  give_map(), give_laser();
-  node().hear_transform_of_other({0, "odom_combined", "base_link", {}}, "/ekf", false);
-  scan(10), scan(21);
-  EXPECT_THAT(link.sent_transforms, SizeIs(1));
-  EXPECT_THAT(diagnosed(), HasSubstr("set odom_frame_id to \"odom_combined\""));
+TEST_F(NodeTest, SaysNothingOfTheTreeWhereItTellsNoTf) {
+  settings.node.tf_broadcast = false;
+  give_map(), give_laser(), give_wheels();
+  node().hear_transform_of_other({0, "map", "odom", {}}, "/amcl", false);
+  scan(10);
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("/amcl")));
 }
 
 TEST_F(NodeTest, LogsTheMapAndWhenTheRobotIsFoundAndLost) {
@@ -288,9 +333,14 @@ TEST_F(NodeTest, LogsTheMapAndWhenTheRobotIsFoundAndLost) {
   scan(10), scan(11);
   EXPECT_THAT(link.logs, testing::ElementsAre("map: 2 x 2 cells of 0.5 m", HasSubstr("starting at"),
                                               "ok at x 3.000 m, y 4.000 m, 28.6 degrees"));
-  node().serve_global_localization();
+  localizer->after_start_at = {{.status = Status::lost}};
   scan(12), scan(13);
+  EXPECT_EQ(link.logs.back(), "lost: it was told so");
+  EXPECT_THAT(link.logs, SizeIs(4));
+  node().serve_global_localization();
+  scan(14), scan(15);
   EXPECT_EQ(link.logs.back(), "looking for the robot on the whole map");
+  EXPECT_THAT(link.logs, SizeIs(5));
 }
 
 TEST_F(NodeTest, SearchesWhenItIsAskedTo) {
