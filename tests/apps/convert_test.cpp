@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "beaconless/io/recording.hpp"
+#include "beaconless/io/recording_writer.hpp"
 
 #include "tests/apps/drive.hpp"
 
@@ -70,6 +71,23 @@ TEST_F(Convert, TheLasersPlaceGoesAlong) {
     const auto told = run({"info", from, "--json"}).json();
     EXPECT_NEAR(told["base_from_laser"][0].get<double>(), 0.7, 1e-12) << told;
   }
+}
+
+TEST_F(Convert, ALogSaysWhatItHasNoRoomFor) {
+  const std::string from = folder.path("two.mcap");
+  auto writer = io::make_recording_writer(from).value();
+  for (const Event& event : io::open_recording(recording()).value()) {
+    writer->write(event);
+    writer->write(Odometry{stamp_of(event), {}, std::nullopt, "/tf odom->base"});
+    writer->write(Odometry{stamp_of(event), {}, Twist2{}, "/wheels"});
+  }
+  ASSERT_TRUE(writer->finish());
+  const Ran ran = run({"--json", "convert", from, folder.path("two.log")});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto left_out = ran.json()["left_out"];
+  ASSERT_EQ(left_out.size(), 1U) << left_out;
+  EXPECT_EQ(left_out.begin().value(), ran.json()["odometry"]);
+  EXPECT_THAT(ran.err, HasSubstr("are left out"));
 }
 
 TEST_F(Convert, SomeScansCanBeChosen) {

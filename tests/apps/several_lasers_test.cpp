@@ -120,9 +120,45 @@ TEST_F(SeveralLasers, GoIntoACopyUnderTheirOwnTopicsAndAtTheirPlaces) {
       EXPECT_EQ(place->base_from_laser.x_m, x_m);
     }
   }
+  const Ran some = run({"--json", "convert", drive(), folder.path("some.mcap"), "--topic", "/front",
+                        "--topic", "/rear", "--scans", "::2"});
+  EXPECT_EQ(some.json()["scans"], 20) << "every other one of each";
   const Ran log = run({"convert", drive(), folder.path("copy.log"), "--topic", "/front", "--topic", "/rear"});
   EXPECT_NE(log.exit_code, 0);
   EXPECT_THAT(log.err, HasSubstr("one laser"));
+}
+
+/// One that nobody places stays so, and what the drive tells besides its scans is told once.
+TEST_F(SeveralLasers, ALaserWithoutAPlaceDoesNotGetThatOfAnother) {
+  const std::string from = folder.path("half.mcap");
+  {
+    io::McapEventWriter out(from);
+    RawScan raw{.angle_increment_rad = 0.1F, .range_max_m = 10.0F, .ranges_m = {1.0F, 2.0F}};
+    for (std::int64_t i = 1; i <= 3; ++i) {
+      raw.stamp = {i * 1'000'000'000};
+      raw.frame_id = "bare";  // written before there is any place
+      out.write(raw, "/bare");
+    }
+    out.place_laser({0.5, 0.0, 0.0});
+    for (std::int64_t i = 1; i <= 3; ++i) {
+      raw.stamp = {i * 1'000'000'000 + 1};
+      raw.frame_id = "front";
+      out.write(raw, "/front");
+    }
+    ASSERT_TRUE(out.finish());
+  }
+  const std::string to = folder.path("copy.mcap");
+  ASSERT_EQ(run({"convert", from, to, "--topic", "/front", "--topic", "/bare"}).exit_code, 0);
+  EXPECT_TRUE(io::open_recording(to, {.topic = "/front"}).value().laser_place());
+  EXPECT_FALSE(io::open_recording(to, {.topic = "/bare"}).value().laser_place());
+  EXPECT_EQ(run({"--json", "info", to}).json()["problems"].size(), 0U);
+  const std::string bytes = folder.read("copy.mcap");
+  folder.write("cut.mcap", bytes.substr(0, bytes.size() - 40));
+  EXPECT_EQ(run({"--json", "info", folder.path("cut.mcap")}).json()["problems"].size(), 1U);
+  const Ran cut = run({"info", folder.path("cut.mcap")});
+  EXPECT_THAT(cut.err, HasSubstr("warning: " + folder.path("cut.mcap")));
+  const Ran twice = run({"convert", from, to, "--topic", "/front", "--topic", "front"});
+  EXPECT_THAT(twice.err, HasSubstr("/front is named twice"));
 }
 
 TEST_F(SeveralLasers, AreExaminedOneAfterTheOther) {
