@@ -48,6 +48,7 @@ void Localization::begin_anew() {
 
 void Localization::begin() {
   last_.reset();
+  is_confirmed_ = false;
   if (!localizer_) return;
   if (const auto* pose = std::get_if<Pose2>(&start_)) localizer_->start_at(*pose);
   if (const auto* anywhere = std::get_if<Anywhere>(&start_)) localizer_->start_anywhere(anywhere->within);
@@ -56,6 +57,7 @@ void Localization::begin() {
 PoseEstimate Localization::update(const Event& event) {
   PoseEstimate estimate = localizer_->update(event);
   if (std::holds_alternative<Scan>(event)) last_ = estimate;
+  is_confirmed_ = is_confirmed_ || estimate.ok();
   return estimate;
 }
 

@@ -52,6 +52,7 @@ class Localization {
   std::span<const LaserSays> lasers() const {
     return localizer_ ? localizer_->lasers() : std::span<const LaserSays>{};
   }
+  bool is_confirmed() const { return is_confirmed_; }  ///< some scan since the last start was ok
   const std::optional<PoseEstimate>& last() const { return last_; }  ///< that a scan has brought
 
  private:
@@ -69,6 +70,7 @@ class Localization {
   std::unique_ptr<Localizer> localizer_;
   std::variant<std::monostate, Pose2, Anywhere> start_;
   std::optional<PoseEstimate> last_;
+  bool is_confirmed_ = false;
 };
 
 }  // namespace beaconless::ros1

@@ -123,7 +123,9 @@ void Node::hear_transform_of_other(const TransformMessage& told, const std::stri
 
 void Node::hear_initial_pose(const PoseMessage& pose) {
   const auto refuse = [this](const Error& why) {
-    complain("initialpose", Level::warn, "refused: " + to_string(why), kRemember_s);
+    const std::string words = "refused: " + to_string(why);
+    complaints_.raise("initialpose", Level::warn, words, link_.steady_s(), kRemember_s);
+    link_.log(Level::warn, "initialpose: " + words);  // each, for somebody is waiting for it
   };
   const auto guess = start_guess_of(pose, config_.global_frame_id);
   if (!guess) return refuse(guess.error());
@@ -170,9 +172,9 @@ Answer Node::serve_nomotion_update() const { return {true, "every scan is an upd
 Answer Node::serve_save_pose() {
   const auto& last = localization_.last();
   if (!last || !last->is_trusted())
-    return {false,
-            "there is no pose that deserves trust: " +
-                (last ? std::string(to_string(last->status)) : std::string("no scan was localized yet"))};
+    return {false, "there is no pose that deserves trust: " +
+                       (last ? fmt::format("{}, quality {:.2f}", to_string(last->status), last->quality)
+                             : std::string("no scan was localized yet"))};
   link_.keep_parameter("initial_pose_x", last->map_from_base.x_m);
   link_.keep_parameter("initial_pose_y", last->map_from_base.y_m);
   link_.keep_parameter("initial_pose_a", last->map_from_base.theta_rad);
@@ -182,19 +184,31 @@ Answer Node::serve_save_pose() {
 }
 
 void Node::look_after_scans(double now_s) {
+  const std::size_t topics = scan_topics_of(config_).size();
   if (heard_s_.empty() && now_s - begun_s_ > kNoScan_s)
     complain(
         "scan", Level::error,
         fmt::format("no scan for {:.0f} s; is the topic right, is its driver running?", now_s - begun_s_));
-  if (!heard_s_.empty()) complaints_.clear("scan");
+  else if (!heard_s_.empty() && heard_s_.size() < topics && now_s - *first_heard_s_ > kNoScan_s)
+    complain("scan", Level::error,
+             fmt::format("scans of {} of {} lasers are heard; are all topics of ~scan_topics right?",
+                         heard_s_.size(), topics));
+  else if (!heard_s_.empty())
+    complaints_.clear("scan");
   for (const auto& [frame, heard_s] : heard_s_) {
     const std::string subject = "scan " + frame;
     if (now_s - heard_s > kNoScan_s)
       complain(subject, Level::error,
-               fmt::format("no scan for {:.0f} s; is its driver running?", now_s - heard_s));
+               fmt::format("no scan{} for {:.0f} s; is its driver running?",
+                           topics > 1 ? " of \"" + frame + "\"" : std::string(), now_s - heard_s));
     else
       complaints_.clear(subject);
   }
+}
+
+void Node::look_after_map(double now_s) {
+  if (!localization_.has_map() && now_s - begun_s_ > kNoScan_s)
+    complain("map", Level::error, "there is no map yet: neither on the topic map nor by ~map_file");
 }
 
 void Node::tick() {
@@ -203,6 +217,7 @@ void Node::tick() {
   if (now_s - last_told_s_ < kTell_s) return;
   last_told_s_ = now_s;
   look_after_scans(now_s);
+  look_after_map(now_s);
   DiagnosticMessage diagnostic = diagnostic_message(localization_.last(), complaints_.at(now_s));
   diagnostic.values.emplace_back("method", localization_.method());
   for (const LaserSays& laser : localization_.lasers())

@@ -66,6 +66,7 @@ class Node {
 
   void start();
   void look_after_scans(double now_s);
+  void look_after_map(double now_s);
   bool check_stamp(const ScanMessage& scan);
   void drain();
   Step take(Waiting& waiting);
@@ -78,6 +79,7 @@ class Node {
   void tell(const std::optional<PoseEstimate>& before, const PoseEstimate& estimate, const Scan& scan,
             const std::optional<Pose2>& odom_from_base);
   void tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odom_from_base);
+  bool is_known(const PoseEstimate& estimate) const;
   void log_change(const PoseEstimate& estimate);
   void search_everywhere();
   void grow_path(const PoseEstimate& estimate);

@@ -17,8 +17,6 @@ constexpr double kTilted_rad = radians(3.0);
 constexpr double kPathStep_m = 0.05;
 constexpr std::size_t kLongestPath = 5000;
 
-bool is_told(const PoseEstimate& estimate) { return estimate.ok() || estimate.status == Status::degraded; }
-
 }  // namespace
 
 void Node::hear_scan(const ScanMessage& scan) {
@@ -226,8 +224,8 @@ void Node::tell(const std::optional<PoseEstimate>& before, const PoseEstimate& e
   if (auto saved = memory_.update(estimate); !saved)
     complain("pose_file", Level::warn, to_string(saved.error()), kRemember_s);
   log_change(estimate);
-  // A pose that is not known is not told: whoever drives by it stops.
-  if (!is_told(estimate)) return;
+  // A pose that is not known is not told: whoever drives by it stops. Nor one that no scan has confirmed yet.
+  if (!is_known(estimate)) return;
   link_.send_pose(pose_message(estimate, frame));
   tell_tf(estimate, odom_from_base);
   grow_path(estimate);
@@ -258,9 +256,13 @@ void Node::tell_tf(const PoseEstimate& estimate, const std::optional<Pose2>& odo
   last_tf_ns_ = estimate.stamp.ns;
 }
 
+bool Node::is_known(const PoseEstimate& estimate) const {
+  return estimate.ok() || (estimate.status == Status::degraded && localization_.is_confirmed());
+}
+
 // What the log is looked through for: when the robot was found, when it was lost and why.
 void Node::log_change(const PoseEstimate& estimate) {
-  const bool is_found = is_told(estimate);
+  const bool is_found = is_known(estimate);
   if (is_found == was_found_ || (!was_found_ && estimate.status != Status::lost && !is_found)) return;
   was_found_ = is_found;
   const Pose2& at = estimate.map_from_base;

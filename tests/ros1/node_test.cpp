@@ -144,7 +144,44 @@ TEST_F(NodeTest, SaysWhichLaserHasFallenSilent) {
     scan(20 + i, "front"), scan(20 + i, "top");
   }
   EXPECT_THAT(diagnosed(),
-              testing::AllOf(HasSubstr("rear: no scan for"), testing::Not(HasSubstr("front: no"))));
+              testing::AllOf(HasSubstr("no scan of \"rear\" for"), testing::Not(HasSubstr("of \"front\""))));
+}
+
+TEST_F(NodeTest, SaysThatALaserWasNeverHeard) {
+  settings.node.scan_topics = "/front /raer";
+  give_map(), give_wheels();
+  link.transforms[{"base_link", "front"}] = FakeLink::known(0.3, 0.0);
+  scan(10, "front");
+  for (int i = 0; i < 4; ++i) {
+    link.steady += 1.0;
+    scan(20 + i, "front");
+  }
+  EXPECT_THAT(diagnosed(), HasSubstr("scans of 1 of 2 lasers are heard"));
+  scan(30, "rear");
+  EXPECT_THAT(diagnosed(), testing::Not(HasSubstr("lasers are heard")));
+}
+
+TEST_F(NodeTest, TellsNoPoseThatNoScanHasConfirmed) {
+  give_map(), give_laser(), give_wheels();
+  node();
+  scan(9);
+  localizer->after_start_at = {
+      {.status = Status::degraded}, {.status = Status::ok}, {.status = Status::degraded}};
+  node().hear_initial_pose({0, "map", {1.0, 0.0}, {}});
+  const std::size_t before = link.poses.size();
+  const std::size_t sent_before = link.sent_transforms.size();
+  scan(10);
+  EXPECT_EQ(link.poses.size(), before);
+  EXPECT_EQ(link.sent_transforms.size(), sent_before);
+  scan(11), scan(12);
+  EXPECT_EQ(link.poses.size(), before + 2) << "one that has been, coasts on";
+}
+
+TEST_F(NodeTest, SaysThatThereIsNoMapEvenWhereThereIsNoScan) {
+  link.steady += 3.0;
+  node();
+  link.steady += 3.0;
+  EXPECT_THAT(diagnosed(), testing::AllOf(HasSubstr("no map yet"), HasSubstr("no scan for")));
 }
 
 TEST_F(NodeTest, BeginsAnewOnceWhereAllItsLasersStampsJumpBack) {
@@ -222,7 +259,10 @@ TEST_F(NodeTest, RefusesABadInitialPoseAndGoesOn) {
   node().hear_initial_pose(bad);
   EXPECT_THAT(localizer->starts, SizeIs(1));
   EXPECT_THAT(diagnosed(), HasSubstr("initialpose: refused: "));
-  EXPECT_THAT(link.logs, Contains(HasSubstr("refused")));
+  bad.frame_id = "base";
+  node().hear_initial_pose(bad);
+  EXPECT_THAT(link.logs, testing::AllOf(Contains(HasSubstr("frame is \"odom\"")),
+                                        Contains(HasSubstr("frame is \"base\""))));
   bad.frame_id = "map";
   node().hear_initial_pose(bad);
   EXPECT_THAT(localizer->starts, SizeIs(2));
