@@ -91,7 +91,8 @@ std::string words_of_map(const Map& map) {
   if (const auto* grid = std::get_if<OccupancyGrid>(&map))
     return fmt::format("{} x {} cells of {:.3g} m", grid->width_cells, grid->height_cells,
                        grid->resolution_m);
-  return fmt::format("a floor plan, {} lines", std::get<FloorPlan>(map).walls.size());
+  const std::size_t lines = std::get<FloorPlan>(map).walls.size();
+  return fmt::format("a floor plan of {} line{}", lines, lines == 1 ? "" : "s");
 }
 
 DiagnosticMessage diagnostic_message(const std::optional<PoseEstimate>& estimate,

@@ -285,7 +285,10 @@ TEST_F(NodeTest, RefusesAnInitialPoseOffTheMap) {
 
 TEST_F(NodeTest, LooksEverywhereWhereItsParametersAreOffTheMap) {
   settings.node.initial_pose_x = 480.0;
-  give_map(), give_laser();
+  node().hear_map({"floor", 0.5, 2, 2, {}, {100, 0, 0, 100}});
+  give_laser();
+  EXPECT_THAT(link.logs, testing::AllOf(Contains("looking for the robot on the whole map"),
+                                        Contains(HasSubstr("its frame is \"floor\""))));
   scan(10);
   EXPECT_THAT(localizer->starts, IsEmpty());
   EXPECT_THAT(localizer->searches, SizeIs(1));
@@ -456,6 +459,7 @@ TEST_F(NodeTest, SendsAMapThatCameFromAFileAndHearsNoOther) {
   ASSERT_TRUE(node().set_map(FloorPlan{.walls = {{{0.0, 0.0}, {4.0, 0.0}}}}, {"room.yaml", 1}));
   ASSERT_THAT(link.maps, SizeIs(1));
   EXPECT_THAT(link.maps[0].percent, Contains(100));
+  EXPECT_THAT(link.logs, Contains("map: a floor plan of 1 line"));
   give_map();
   give_laser();
   scan(10);
