@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <csetjmp>
 #include <cstdio>
+#include <string_view>
 
 #include <png.h>
 
@@ -106,6 +108,29 @@ bool read_pixels(PngReading& r) {
   return true;
 }
 
+/// Where a chunk leads past the end of the file, if one does: libpng would make room for all of it before it
+/// reads. Source: PNG specification, 5.3 (chunk layout).
+std::string cut_chunk(const PngReading& r) {
+  constexpr std::uint64_t kSignature = 8;
+  constexpr std::uint64_t kAround = 12;  // length, type and checksum
+  std::array<unsigned char, 8> head{};   // length and type
+  for (std::uint64_t at = kSignature; at + kAround <= r.size_bytes;) {
+    if (std::fseek(r.file, static_cast<long>(at), SEEK_SET) != 0 ||
+        std::fread(head.data(), 1, head.size(), r.file) != head.size())
+      return "cannot be read";
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < 4; ++i) bytes = bytes << 8U | head[i];
+    if (std::string_view(reinterpret_cast<const char*>(head.data()) + 4, 4) == "IEND")
+      break;  // what follows is not read
+    if (bytes > r.size_bytes - at - kAround)
+      return "a chunk at byte " + std::to_string(at) + " has " + std::to_string(bytes) +
+             " bytes, more than the file has left";
+    at += kAround + bytes;
+  }
+  std::rewind(r.file);
+  return {};
+}
+
 /// What is wrong with the size that the header promises, if anything.
 std::string wrong_size(PngReading& r) {
   const std::uint64_t width = png_get_image_width(r.png, r.info);
@@ -131,10 +156,11 @@ Result<GrayImage> read_png(const std::string& path) {
   r.size_bytes = *size;
   r.file = std::fopen(path.c_str(), "rb");
   if (r.file == nullptr) return Error{path, "cannot be opened", ""};
+  const std::string remedy = "is the file complete?";
+  if (const std::string cut = cut_chunk(r); !cut.empty()) return Error{path, cut, remedy};
   r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r, on_error, on_warning);
   r.info = r.png != nullptr ? png_create_info_struct(r.png) : nullptr;
   if (r.info == nullptr) return Error{path, "libpng does not start", ""};
-  const std::string remedy = "is the file complete?";
   if (!read_header(r)) return Error{path, r.what, remedy};
   if (const std::string wrong = wrong_size(r); !wrong.empty()) return Error{path, wrong, remedy};
   if (!read_pixels(r)) return Error{path, r.what, remedy};

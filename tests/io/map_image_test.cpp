@@ -113,6 +113,19 @@ TEST(MapImage, RefusesSizesThatTheFileCannotHoldBeforeAllocating) {
   }
 }
 
+TEST(MapImage, RefusesAChunkThatLeadsPastTheEndOfAPng) {
+  const TempFolder folder;
+  std::string text = png_chunk("tEXt", "a\0b"s);
+  const auto read = [&] { return read_image(folder.write("a", png({1, 1, 8, 0}, "\0\x01"s, text))); };
+  ASSERT_TRUE(read());
+  text[0] = '\x3B';  // nearly a gibibyte
+  ASSERT_FALSE(read());
+  EXPECT_THAT(read().error().what, HasSubstr("more than the file has left"));
+  const std::string whole = png({1, 1, 8, 0}, "\0\x01"s);
+  EXPECT_TRUE(read_image(folder.write("a", whole + "what follows the last chunk, whatever it is")))
+      << "is not read";
+}
+
 /// Reads every beginning of a file, and the file with bytes changed: an answer each time, with a consistent
 /// picture.
 void maltreat(const std::string& bytes, int whole_from) {
