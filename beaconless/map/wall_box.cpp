@@ -5,10 +5,9 @@ namespace beaconless {
 namespace {
 
 Eigen::AlignedBox2d box_of(const FloorPlan& plan) {
-  Eigen::AlignedBox2d box;
-  for (const FloorPlan::Polyline& wall : plan.walls)
-    for (const Eigen::Vector2d& point : wall) box.extend(point);
-  return box;
+  if (plan.segments().empty()) return {};
+  const FloorPlan::Bounds bounds = plan.bounds();
+  return {bounds.low, bounds.high};
 }
 
 Eigen::AlignedBox2d box_of(const OccupancyGrid& grid) {

@@ -56,7 +56,8 @@ void Localization::begin() {
 
 PoseEstimate Localization::update(const Event& event) {
   PoseEstimate estimate = localizer_->update(event);
-  if (std::holds_alternative<Scan>(event)) last_ = estimate;
+  if (!std::holds_alternative<Scan>(event)) return estimate;
+  last_ = estimate;
   is_confirmed_ = is_confirmed_ || estimate.ok();
   return estimate;
 }

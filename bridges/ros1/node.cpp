@@ -13,7 +13,8 @@ namespace beaconless::ros1 {
 namespace {
 
 constexpr double kTell_s = 1.0;    // from one diagnostic to the next
-constexpr double kNoScan_s = 2.0;  // without a scan something is wrong
+constexpr double kNoScan_s = 2.0;  // without a scan something is wrong …
+constexpr double kNoMap_s = 2.0;   // … and without a map
 
 }  // namespace
 
@@ -206,9 +207,8 @@ void Node::look_after_scans(double now_s) {
   }
 }
 
-void Node::look_after_map(double now_s) {
-  if (!localization_.has_map() && now_s - begun_s_ > kNoScan_s)
-    complain("map", Level::error, "there is no map yet: neither on the topic map nor by ~map_file");
+void Node::miss_map() {
+  complain("map", Level::error, "there is no map yet: neither on the topic map nor by ~map_file");
 }
 
 void Node::tick() {
@@ -217,7 +217,7 @@ void Node::tick() {
   if (now_s - last_told_s_ < kTell_s) return;
   last_told_s_ = now_s;
   look_after_scans(now_s);
-  look_after_map(now_s);
+  if (!localization_.has_map() && now_s - begun_s_ > kNoMap_s) miss_map();
   DiagnosticMessage diagnostic = diagnostic_message(localization_.last(), complaints_.at(now_s));
   diagnostic.values.emplace_back("method", localization_.method());
   for (const LaserSays& laser : localization_.lasers())

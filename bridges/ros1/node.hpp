@@ -66,7 +66,7 @@ class Node {
 
   void start();
   void look_after_scans(double now_s);
-  void look_after_map(double now_s);
+  void miss_map();
   bool check_stamp(const ScanMessage& scan);
   void drain();
   Step take(Waiting& waiting);

@@ -88,7 +88,7 @@ void Node::drain() {
 
 Node::Step Node::take(Waiting& waiting) {
   if (!localization_.has_map()) {
-    complain("map", Level::error, "there is no map yet: neither on the topic map nor by ~map_file");
+    miss_map();
     ++scans_dropped_;
     return Step::done;
   }

@@ -61,16 +61,19 @@ std::optional<std::string> TfRivals::loop(const std::string& child, double now_s
 
 std::optional<std::string> TfRivals::beside(const std::string& child, double now_s) const {
   for (const std::string& frame : {odom_frame_, base_frame_}) {
-    // Who else tells a parent of it: us, or the first of the others.
-    std::pair<std::string, std::string> other;
-    if (frame == child) other = {"this node", map_frame_};
+    const bool is_ours = frame == child;
+    // Who else tells a parent of it: we, or the first of the others.
+    std::string other = is_ours ? "this node" : "";
+    std::string parent = is_ours ? map_frame_ : "";
     for (const auto& [teller, told] : of(frame)) {
       if (told.until_s < now_s) continue;
-      if (other.first.empty()) other = {teller, told.parent};
-      const bool is_ours = other.first == "this node";
-      if (!is_ours && told.parent == other.second) continue;
+      if (other.empty()) {
+        other = teller;
+        parent = told.parent;
+      }
+      if (!is_ours && told.parent == parent) continue;
       const std::string both = fmt::format("{} tells \"{}\" below \"{}\", and {} below \"{}\": ", teller,
-                                           frame, told.parent, other.first, other.second);
+                                           frame, told.parent, other, parent);
       if (!is_ours || told.parent == map_frame_)
         return both +
                "end one of the two, take its transform out of the recording, or set tf_broadcast to false";
